@@ -1,0 +1,80 @@
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use glam::{Quat, Vec3};
+use serde::{Deserialize, Serialize};
+
+use crate::{Id, Value};
+
+/// Everything one animal notices in one tick: all that its mind may know.
+///
+/// Positions and directions are in the animal's own frame (X left, Y up, Z ahead), in metres, with
+/// its centre as the origin; velocities are relative to the ground in the same frame.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Percepts {
+    /// World time in seconds.
+    pub time: f64,
+    /// Seconds since the last decision.
+    pub dt: f32,
+    /// Own velocity, metres per second.
+    pub velocity: Vec3,
+    /// Rotation from the own frame to the world's: the sense of balance and of compass direction.
+    pub attitude: Quat,
+    /// Own length in metres.
+    pub body_length: f32,
+    /// Depth below the water surface in metres; negative above it.
+    pub depth: f32,
+    /// Vector from the own place to the place the animal calls home, in metres.
+    pub home: Vec3,
+    /// What is seen, nearest first.
+    pub seen: Vec<Sighting>,
+    /// What lies ahead within reach, if anything.
+    pub ahead: Option<Impact>,
+    /// What is heard.
+    pub heard: Vec<Hearing>,
+    /// Flow of the medium relative to the body, metres per second.
+    pub flow: Vec3,
+    /// Brightness around, 0 (dark) to 1 (full sun).
+    pub light: f32,
+    /// Temperature in degrees Celsius.
+    pub temperature: f32,
+    /// Whatever further senses add, by name.
+    pub other: BTreeMap<String, Value>,
+}
+
+/// One thing seen.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Sighting {
+    /// Its identity.
+    pub id: Id,
+    /// Its species, as published in the scene.
+    pub species: Arc<str>,
+    /// Where it is, own frame, metres.
+    pub position: Vec3,
+    /// How it moves, own frame, metres per second.
+    pub velocity: Vec3,
+    /// Its size in metres.
+    pub size: f32,
+}
+
+/// An obstacle straight ahead.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Impact {
+    /// Distance along the heading, metres.
+    pub distance: f32,
+    /// Point beside the obstacle's silhouette to steer for, own frame, metres.
+    pub aim: Vec3,
+}
+
+/// One sound heard.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Hearing {
+    /// Identity of its source.
+    pub source: Id,
+    /// Which noise.
+    pub kind: String,
+    /// Direction it comes from, own frame, unit length.
+    pub direction: Vec3,
+    /// Amplitude at the ear.
+    pub amplitude: f32,
+}

@@ -1,0 +1,21 @@
+//! Shapes and what can be seen of them: meshes, terrain, obstacles, spatial indexes, the [`Scene`] and the
+//! rasterizer that serves as every animal's retina.
+//!
+//! Metres, right-handed, Y up, linear colour. Bodies look along their own +Z (so +X is their left);
+//! cameras look along their own −Z.
+
+mod camera;
+mod key;
+pub mod mesh;
+mod obstacle;
+pub mod scene;
+mod terrain;
+mod transform;
+
+pub use camera::{Camera, Projection};
+pub use key::Key;
+pub use mesh::{Joint, Mesh, Skin};
+pub use obstacle::Obstacle;
+pub use scene::{Batch, Material, Medium, Points, Scene, Sky, Sun, Texture};
+pub use terrain::Terrain;
+pub use transform::Transform;
