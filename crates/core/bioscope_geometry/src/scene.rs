@@ -1,13 +1,12 @@
 //! The published scene: the one description of what can be seen, read by retinas, live view, film
 //! and export alike.
 
-use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use bioscope_core::{Annotation, Id, Vec3};
 use serde::{Deserialize, Serialize};
 
-use crate::{Camera, Key, Mesh, Transform};
+use crate::{Key, Mesh, Rig, Transform};
 
 /// All that can be seen at one tick. Rebuilt by every `publish`; assets are shared.
 #[derive(Clone, Debug, Default)]
@@ -26,8 +25,8 @@ pub struct Scene {
     pub sky: Sky,
     /// What fills the space.
     pub medium: Medium,
-    /// Points of view that the world offers, by name.
-    pub cameras: BTreeMap<String, Camera>,
+    /// Points of view that the world offers, the first being the main one.
+    pub rigs: Vec<Rig>,
     /// What senses and minds show of their work.
     pub annotations: Vec<Annotation>,
 }

@@ -19,7 +19,7 @@ pub struct Terrain {
 impl Terrain {
     /// A terrain of these samples; at least two by two, all finite.
     pub fn new(origin: [f32; 2], spacing: f32, columns: usize, heights: Vec<f32>) -> Result<Self> {
-        if columns < 2 || heights.len() < 2 * columns || heights.len() % columns != 0 {
+        if columns < 2 || heights.len() < 2 * columns || !heights.len().is_multiple_of(columns) {
             let shape = format!("{} heights in rows of {columns}", heights.len());
             return Err(Error::value("heights", shape, "at least two full rows of two or more"));
         }

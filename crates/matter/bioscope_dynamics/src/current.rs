@@ -81,6 +81,11 @@ impl Field for Current {
     fn save(&self) -> Vec<u8> {
         state::to_bytes(self)
     }
+
+    fn restore(&mut self, bytes: &[u8]) -> Result<()> {
+        *self = state::from_bytes("current", bytes)?;
+        Ok(())
+    }
 }
 
 #[cfg(test)]
@@ -93,7 +98,8 @@ mod tests {
         for index in 0..50 {
             let point = Vec3::new(index as f32 * 0.37, 1.0, index as f32 * -0.21);
             let slope = |axis: Vec3| {
-                (eddies(point + axis * h, 3.0) - eddies(point - axis * h, 3.0)).dot(axis) / (2.0 * h)
+                (eddies(point + axis * h, 3.0) - eddies(point - axis * h, 3.0)).dot(axis)
+                    / (2.0 * h)
             };
             let divergence = slope(Vec3::X) + slope(Vec3::Y) + slope(Vec3::Z);
             assert!(divergence.abs() < 2e-3, "{divergence} at {point}");

@@ -32,4 +32,6 @@ pub trait Field: Send + Sync {
     }
     /// Complete state as bytes.
     fn save(&self) -> Vec<u8>;
+    /// Goes back to a state that [`save`](Self::save) gave.
+    fn restore(&mut self, bytes: &[u8]) -> Result<()>;
 }

@@ -1,1 +1,21 @@
-//! (empty)
+//! The world and its tick.
+//!
+//! A [`World`] advances time; [`Population`]s live in it; observers read its published scene,
+//! sounds and events and change nothing. The tick knows two contracts, [`Population`] and
+//! [`Field`](bioscope_dynamics::Field), and names no species.
+
+mod environment;
+mod input;
+mod population;
+mod publication;
+mod registry;
+mod save;
+mod tick;
+mod world;
+
+pub use environment::{Environment, EnvironmentParameters};
+pub use input::{Input, Recording};
+pub use population::{Growth, Inspection, Moment, Population, View};
+pub use publication::Publication;
+pub use registry::Registry;
+pub use world::World;
