@@ -1,0 +1,147 @@
+use std::sync::Arc;
+
+use bioscope_core::{Percepts, Quat, Vec3};
+use bioscope_dynamics::Influence;
+use bioscope_geometry::{Batch, Material, Medium, Mesh, Obstacle, Scene, Sun, Terrain, Transform};
+use proptest::prelude::*;
+
+use super::*;
+use crate::{Sense, Surroundings, restore};
+
+/// A scene with one living thing 0.2 m long at each place, identities from 10 on.
+fn scene(places: &[Vec3]) -> Scene {
+    let positions = vec![Vec3::new(0.0, 0.0, -0.1), Vec3::new(0.0, 0.0, 0.1)];
+    let mesh = Arc::new(Mesh { positions, ..Mesh::default() });
+    let mut batch = Batch::new("prey", "prey", mesh, Arc::new(Material::default()));
+    batch.alive = true;
+    batch.ids = (10..10 + places.len() as u32).collect();
+    batch.transforms = places.iter().map(|&place| Transform::at(place)).collect();
+    batch.velocities = vec![Vec3::X; places.len()];
+    Scene { batches: vec![batch], ..Scene::default() }
+}
+
+fn surroundings<'a>(scene: &'a Scene, medium: &'a Medium) -> Surroundings<'a> {
+    Surroundings {
+        id: 1,
+        position: Vec3::ZERO,
+        attitude: Quat::IDENTITY,
+        velocity: Vec3::ZERO,
+        body_length: 0.0,
+        home: Vec3::ZERO,
+        scene,
+        sounds: &[],
+        influence: Influence::default(),
+        obstacles: &[],
+        terrain: None,
+        medium,
+        sun: Sun::default(),
+        temperature: 20.0,
+        time: 0.0,
+        dt: 1.0 / 60.0,
+    }
+}
+
+fn seen(surroundings: &Surroundings) -> Vec<u32> {
+    let mut percepts = Percepts::default();
+    Sight::default().sense(surroundings, &mut percepts).unwrap();
+    percepts.seen.iter().map(|one| one.id).collect()
+}
+
+fn at_angle(degrees: f32, distance: f32) -> Vec3 {
+    let angle = degrees.to_radians();
+    Vec3::new(angle.sin(), 0.0, angle.cos()) * distance
+}
+
+#[test]
+fn the_field_of_view_is_300_degrees() {
+    let scene = scene(&[at_angle(149.0, 2.0), at_angle(151.0, 2.0), at_angle(-149.0, 3.0)]);
+    assert_eq!(seen(&surroundings(&scene, &Medium::default())), [10, 12]);
+}
+
+#[test]
+fn the_nearest_are_seen_first_and_only_so_many() {
+    let scene = scene(&[at_angle(0.0, 4.0), at_angle(90.0, 2.0), at_angle(20.0, 3.0)]);
+    let (medium, mut percepts) = (Medium::default(), Percepts::default());
+    let parameters = SightParameters { attention: 2.0, ..SightParameters::default() };
+    Sight::new(parameters).sense(&surroundings(&scene, &medium), &mut percepts).unwrap();
+    assert_eq!(percepts.seen.iter().map(|one| one.id).collect::<Vec<_>>(), [11, 12]);
+}
+
+#[test]
+fn what_is_far_small_or_lost_in_haze_is_not_seen() {
+    let scene = scene(&[Vec3::Z * 29.0, Vec3::Z * 31.0]);
+    let murky = Medium { absorption: [0.3; 3], scattering: [0.1; 3], ..Medium::default() };
+    assert_eq!(seen(&surroundings(&scene, &Medium::default())), [10]);
+    assert_eq!(seen(&surroundings(&scene, &murky)), [0u32; 0]);
+    let sharp = SightParameters { acuity: 1.0, ..SightParameters::default() };
+    let (medium, mut percepts) = (Medium::default(), Percepts::default());
+    Sight::new(sharp).sense(&surroundings(&scene, &medium), &mut percepts).unwrap();
+    assert!(percepts.seen.is_empty(), "0.2 m in 29 m is 0.4 degrees");
+}
+
+#[test]
+fn nobody_sees_itself_nor_what_does_not_live() {
+    let mut scene = scene(&[Vec3::Z]);
+    let medium = Medium::default();
+    let mut own = surroundings(&scene, &medium);
+    own.id = 10;
+    assert!(seen(&own).is_empty());
+    scene.batches[0].alive = false;
+    assert!(seen(&surroundings(&scene, &medium)).is_empty());
+}
+
+#[test]
+fn rocks_and_ground_hide_what_is_behind_them() {
+    let scene = scene(&[Vec3::Z * 10.0, Vec3::new(4.0, 0.0, 10.0)]);
+    let (medium, rock) = (Medium::default(), Vec3::Z * 5.0);
+    let rocks = [Obstacle::Sphere { center: rock, radius: 1.0 }];
+    let behind_rock = Surroundings { obstacles: &rocks, ..surroundings(&scene, &medium) };
+    assert_eq!(seen(&behind_rock), [11]);
+    let on_top = [Obstacle::Sphere { center: Vec3::Z * 10.0, radius: 0.05 }];
+    let on_rock = Surroundings { obstacles: &on_top, ..surroundings(&scene, &medium) };
+    assert_eq!(seen(&on_rock), [10, 11], "what sits on a small rock is seen");
+    // A ridge along x at z = 4, two metres high.
+    let heights = (0..16 * 16).map(|index| if index / 16 == 4 { 2.0 } else { -1.0 }).collect();
+    let ridge = Terrain::new([-8.0, 0.0], 1.0, 16, heights).unwrap();
+    let behind_ridge = Surroundings { terrain: Some(&ridge), ..surroundings(&scene, &medium) };
+    assert_eq!(seen(&behind_ridge), [0u32; 0]);
+}
+
+#[test]
+fn comes_back_from_its_bytes_and_refuses_senseless_ones() {
+    let parameters = SightParameters { range: 12.0, ..SightParameters::default() };
+    let sight = Sight::new(parameters);
+    assert_eq!(restore::<Sight>("sight", &sight.save()).unwrap().save(), sight.save());
+    let blind = Sight::new(SightParameters { range: -1.0, ..SightParameters::default() });
+    let error = restore::<Sight>("sight", &blind.save()).unwrap_err();
+    assert!(error.to_string().contains("range"), "{error}");
+}
+
+proptest! {
+    #[test]
+    fn percepts_are_in_the_own_frame_however_the_animal_is_turned(
+        yaw in -3f32..3.0, pitch in -1.5f32..1.5, roll in -3f32..3.0,
+        x in -3f32..3.0, y in -3f32..3.0, z in 1f32..4.0,
+    ) {
+        let attitude = Quat::from_euler(glam_order(), yaw, pitch, roll);
+        let place = Vec3::new(7.0, -3.0, 2.0);
+        let own = Vec3::new(x, y, z);
+        let scene = scene(&[place + attitude * own]);
+        let medium = Medium::default();
+        let turned = Surroundings {
+            position: place, attitude, velocity: attitude * Vec3::Z, home: place + attitude * Vec3::Y,
+            ..surroundings(&scene, &medium)
+        };
+        let mut percepts = turned.own_state();
+        Sight::default().sense(&turned, &mut percepts).unwrap();
+        let sighting = &percepts.seen[0];
+        prop_assert!((sighting.position - own).length() < 1e-4);
+        prop_assert!((attitude * sighting.velocity - Vec3::X).length() < 1e-4);
+        prop_assert!((percepts.velocity - Vec3::Z).length() < 1e-5);
+        prop_assert!((percepts.home - Vec3::Y).length() < 1e-4);
+    }
+}
+
+fn glam_order() -> glam::EulerRot {
+    glam::EulerRot::YXZ
+}
