@@ -41,6 +41,11 @@ impl Sense for Touch {
 
     fn sense(&mut self, surroundings: &Surroundings, percepts: &mut Percepts) -> Result<()> {
         percepts.ahead = impact_ahead(surroundings, &self.parameters);
+        if let Some(terrain) = surroundings.terrain {
+            let Vec3 { x, y, z } = surroundings.position;
+            let altitude = y - terrain.height(x, z);
+            percepts.other.insert(String::from("altitude"), altitude.into());
+        }
         Ok(())
     }
 
