@@ -78,8 +78,12 @@ impl Field for Current {
         Some(&mut self.parameters)
     }
 
-    fn save(&self) -> Vec<u8> {
-        state::to_bytes(self)
+    fn boxed_clone(&self) -> Box<dyn Field> {
+        Box::new(self.clone())
+    }
+
+    fn save(&self) -> Result<Vec<u8>> {
+        Ok(state::to_bytes(self))
     }
 
     fn restore(&mut self, bytes: &[u8]) -> Result<()> {

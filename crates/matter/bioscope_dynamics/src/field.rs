@@ -30,8 +30,16 @@ pub trait Field: Send + Sync {
     fn parameters_mut(&mut self) -> Option<&mut dyn Parameters> {
         None
     }
+    /// A copy for observers that outlive the tick.
+    fn boxed_clone(&self) -> Box<dyn Field>;
     /// Complete state as bytes.
-    fn save(&self) -> Vec<u8>;
+    fn save(&self) -> Result<Vec<u8>>;
     /// Goes back to a state that [`save`](Self::save) gave.
     fn restore(&mut self, bytes: &[u8]) -> Result<()>;
+}
+
+impl Clone for Box<dyn Field> {
+    fn clone(&self) -> Self {
+        self.boxed_clone()
+    }
 }

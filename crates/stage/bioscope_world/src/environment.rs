@@ -25,7 +25,7 @@ parameters! {
 }
 
 /// What is not alive: terrain, medium, light, obstacles and fields.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub struct Environment {
     /// The ground, if there is any.
     pub terrain: Option<Arc<Terrain>>,

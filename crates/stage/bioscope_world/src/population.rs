@@ -1,4 +1,5 @@
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use bioscope_core::{Id, Parameters, Purpose, Random, Result, SoundEvent, Value};
 use bioscope_geometry::{Camera, Scene};
@@ -101,7 +102,7 @@ pub struct View<'a> {
     /// Now.
     pub moment: Moment,
     /// What the previous tick published.
-    pub scene: &'a Scene,
+    pub scene: &'a Arc<Scene>,
     /// What sounded in the previous tick.
     pub sounds: &'a [SoundEvent],
     /// Terrain, water, light, fields.

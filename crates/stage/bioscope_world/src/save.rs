@@ -24,6 +24,8 @@ struct State {
     obstacles: Vec<Obstacle>,
     parameters: EnvironmentParameters,
     rigs: Vec<Rig>,
+    shots: Vec<(String, f32)>,
+    title: String,
     fields: Vec<Saved>,
     populations: Vec<Saved>,
 }
@@ -100,10 +102,12 @@ impl World {
     }
 
     pub(crate) fn save_state(&self) -> Result<Vec<u8>> {
-        let fields = self.environment.fields.iter().map(|(name, field)| Saved {
-            name: name.clone(),
-            kind: field.kind().to_owned(),
-            bytes: field.save(),
+        let fields = self.environment.fields.iter().map(|(name, field)| {
+            Ok(Saved {
+                name: name.clone(),
+                kind: field.kind().to_owned(),
+                bytes: field.save()?,
+            })
         });
         let populations = self.populations.iter().map(|one| {
             Ok(Saved {
@@ -124,7 +128,9 @@ impl World {
             obstacles: environment.obstacles.clone(),
             parameters: environment.parameters.clone(),
             rigs: self.rigs.clone(),
-            fields: fields.collect(),
+            shots: self.shots.clone(),
+            title: self.title.clone(),
+            fields: fields.collect::<Result<_>>()?,
             populations: populations.collect::<Result<_>>()?,
         }))
     }
@@ -157,6 +163,8 @@ impl World {
         self.environment.obstacles = state.obstacles;
         self.environment.parameters = state.parameters;
         self.rigs = state.rigs;
+        self.shots = state.shots;
+        self.title = state.title;
     }
 }
 

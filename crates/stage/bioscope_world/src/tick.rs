@@ -49,6 +49,11 @@ impl World {
         outcome
     }
 
+    /// Publishes the present state again, after a change from outside.
+    pub fn publish_again(&mut self) -> Result<()> {
+        self.publish().map(drop)
+    }
+
     /// Rebuilds scene and sounds from the state; returns the events of the tick.
     pub(crate) fn publish(&mut self) -> Result<Vec<bioscope_core::Event>> {
         let moment = self.moment(self.tick);

@@ -20,6 +20,10 @@ pub struct World {
     pub(crate) populations: Vec<Resident>,
     /// Points of view the world offers, the first being the main one.
     pub rigs: Vec<Rig>,
+    /// The film this world suggests: names of rigs and seconds to stay with each.
+    pub shots: Vec<(String, f32)>,
+    /// What the world is called.
+    pub title: String,
     pub(crate) next_id: Id,
     pub(crate) scene: Arc<Scene>,
     pub(crate) sounds: Vec<SoundEvent>,
@@ -56,6 +60,8 @@ impl World {
             environment: Environment::default(),
             populations: Vec::new(),
             rigs: Vec::new(),
+            shots: Vec::new(),
+            title: String::from("world"),
             next_id: 1,
             scene: Arc::default(),
             sounds: Vec::new(),
@@ -213,7 +219,7 @@ impl World {
             let (owner, name) = (owner.to_owned(), name.to_owned());
             recorder.inputs.push(Input { tick: self.tick, owner, name, value });
         }
-        Ok(())
+        self.publish_again()
     }
 
     /// Inner life of one individual, with the name of its population.

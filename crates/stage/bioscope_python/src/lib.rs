@@ -1,0 +1,44 @@
+//! The binding: convert, call, convert back. The public API with its documentation is the Python
+//! package `bioscope`; this module is `bioscope._engine`.
+
+use pyo3::prelude::*;
+
+mod arrays;
+mod camera;
+mod error;
+mod field;
+mod material;
+mod mesh;
+mod population;
+mod publication;
+mod rig;
+mod scene;
+mod values;
+mod view;
+mod world;
+
+/// The engine of the Python package `bioscope`.
+#[pymodule]
+mod _engine {
+    #[pymodule_export]
+    const VERSION: &str = env!("CARGO_PKG_VERSION");
+
+    #[pymodule_export]
+    use super::camera::Camera;
+    #[pymodule_export]
+    use super::field::{Field, current};
+    #[pymodule_export]
+    use super::material::Material;
+    #[pymodule_export]
+    use super::mesh::Mesh;
+    #[pymodule_export]
+    use super::population::Resident;
+    #[pymodule_export]
+    use super::publication::Publication;
+    #[pymodule_export]
+    use super::scene::{Batch, Points, Scene};
+    #[pymodule_export]
+    use super::view::View;
+    #[pymodule_export]
+    use super::world::World;
+}

@@ -1,0 +1,235 @@
+"""The world: advances time, holds what lives in it, lets itself be watched."""
+
+from __future__ import annotations
+
+import secrets
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from bioscope import _engine
+from bioscope.files import naming, written_whole
+from bioscope.world import field as fields
+from bioscope.world import population as populations
+from bioscope.world.cameras import Cameras
+from bioscope.world.environment import Environment
+from bioscope.world.events import Event, EventLog
+from bioscope.world.parameter import Parameter
+from bioscope.world.population import Native, Population, Resident
+
+if TYPE_CHECKING:
+    from os import PathLike
+
+    from bioscope._engine import Scene
+
+AnyPopulation = TypeVar("AnyPopulation", bound=Native | Population)
+
+
+class World:
+    """A virtual world: time, environment and everything that lives in it.
+
+    Parameters
+    ----------
+    seed
+        Seed of all randomness; one is drawn if not given. The same seed gives the same world.
+    dt
+        Length of a tick in seconds.
+    title
+        What the world is called.
+
+    Examples
+    --------
+    >>> import bioscope as bio
+    >>> world = bio.World(seed=7, dt=1 / 60)
+    >>> world.environment.water(surface=0.0, current=bio.Current(direction=(1, 0, 0), speed=0.1))
+    >>> world.step(60)
+    >>> world.tick, round(world.time, 3)
+    (60, 1.0)
+    """
+
+    def __init__(
+        self, seed: int | None = None, dt: float = 1 / 60, *, title: str = "world"
+    ) -> None:
+        self._engine = _engine.World(secrets.randbits(32) if seed is None else seed, dt)
+        self._engine.title = title
+        self._prepare()
+
+    def _prepare(self) -> None:
+        self.environment = Environment(self)
+        """Terrain, water, light and fields."""
+        self.cameras = Cameras(self)
+        """Named points of view."""
+        self._events = EventLog()
+
+    @classmethod
+    def _of(cls, engine: _engine.World) -> World:
+        world = cls.__new__(cls)
+        world._engine = engine
+        world._prepare()
+        return world
+
+    @property
+    def seed(self) -> int:
+        """Seed of all randomness."""
+        return self._engine.seed
+
+    @property
+    def dt(self) -> float:
+        """Length of a tick in seconds."""
+        return self._engine.dt
+
+    @property
+    def tick(self) -> int:
+        """Ticks made so far."""
+        return self._engine.tick
+
+    @property
+    def time(self) -> float:
+        """World time in seconds."""
+        return self._engine.time
+
+    @property
+    def title(self) -> str:
+        """What the world is called."""
+        return self._engine.title
+
+    @property
+    def scene(self) -> Scene:
+        """What the last tick published, as numpy views; stays as it is while the world goes on."""
+        return self._engine.scene
+
+    @property
+    def sounds(self) -> list[dict[str, Any]]:
+        """What sounded in the last tick."""
+        return self._engine.sounds
+
+    @property
+    def shots(self) -> list[tuple[str, float]]:
+        """The film the world suggests: names of cameras and seconds to stay with each."""
+        return self._engine.shots
+
+    @shots.setter
+    def shots(self, shots: list[tuple[str, float]]) -> None:
+        self._engine.shots = shots
+
+    def add(self, population: AnyPopulation, name: str | None = None) -> AnyPopulation:
+        """Let a population live here, and return it.
+
+        Parameters
+        ----------
+        population
+            One of the engine's (`FishSchool`, `Plants`, …) or of your own (`Population`).
+        name
+            Its name in the world; one is made from its kind if not given.
+
+        Raises
+        ------
+        InvalidValueError
+            If the name is taken or the population lives somewhere already.
+        """
+        if isinstance(population, Population):
+            kind = type(population).kind
+            given = self._engine.add_python(population, kind, name)
+            population.name = given
+        else:
+            given = self._engine.add(population._resident, name)
+            population._settled(self, given)
+        return population
+
+    @property
+    def populations(self) -> dict[str, int]:
+        """How many individuals each population has, by name."""
+        return {name: count for name, _, count in self._engine.populations}
+
+    def step(self, ticks: int = 1) -> None:
+        """Make ticks. If code of your own fails in one, the world is back at the last complete tick."""
+        self._engine.step(ticks)
+
+    def run(self, seconds: float) -> None:
+        """Make the ticks of this much world time, rounded to whole ticks."""
+        self.step(round(seconds / self.dt))
+
+    def state_hash(self) -> str:
+        """Return 64 hex digits over the complete simulation state."""
+        return self._engine.state_hash()
+
+    @property
+    def events(self) -> EventLog:
+        """What has happened since the world was made, restored or last drained."""
+        self._events.extend(Event(*row) for row in self._engine.events(len(self._events)))
+        return self._events
+
+    def drain_events(self) -> list[Event]:
+        """Take the events out, for observers that store them elsewhere."""
+        self._events = EventLog()
+        return [Event(*row) for row in self._engine.drain_events()]
+
+    def parameters(self) -> list[Parameter]:
+        """Describe every tunable number of the world with its present value."""
+        return [Parameter(*row) for row in self._engine.parameters()]
+
+    def set(self, owner: str, name: str, value: float) -> None:
+        """Set a parameter of a population, a field or `environment` between two ticks.
+
+        Raises
+        ------
+        UnknownNameError, InvalidValueError
+            For an unknown owner or name, or a value outside the parameter's range.
+        """
+        self._engine.set(owner, name, value)
+
+    def inspect(self, individual: int) -> dict[str, Any] | None:
+        """Return what can be known of one individual; none if there is no such one.
+
+        `population`, `species`, `behavior`, `values`, `percepts` and `eye` (a camera, or none).
+        """
+        return self._engine.inspect(individual)
+
+    def statistics(self) -> dict[str, float]:
+        """Return the present figures of all populations as `population.figure`."""
+        return self._engine.statistics()
+
+    def save(self, path: str | PathLike[str]) -> None:
+        """Store the world in a file; `World.restore` continues it bit by bit as it would have."""
+        with written_whole(path) as temporary:
+            temporary.write_bytes(self._engine.save())
+
+    @classmethod
+    def restore(cls, path: str | PathLike[str]) -> World:
+        """Bring back a saved world. Define or import its Python populations and fields first.
+
+        Raises
+        ------
+        FormatError
+            If the file is not a whole saved world of this or an earlier release.
+        """
+        data = Path(path).read_bytes()
+        with naming(path):
+            return cls._of(_engine.World.restore(data, populations.kinds(), fields.kinds()))
+
+    def record(self) -> None:
+        """Begin to record: from now on every change from outside is kept."""
+        self._engine.record()
+
+    def save_recording(self, path: str | PathLike[str]) -> None:
+        """Store the run since `record`: where it began and what was done to it.
+
+        Raises
+        ------
+        RuntimeError
+            If `record` was not called.
+        """
+        data = self._engine.recording()
+        if data is None:
+            raise RuntimeError("nothing is being recorded: call world.record() first")
+        with written_whole(path) as temporary:
+            temporary.write_bytes(data)
+
+    @classmethod
+    def replay(cls, path: str | PathLike[str]) -> World:
+        """Repeat a recorded run to its end; ends in the same state, to the bit."""
+        data = Path(path).read_bytes()
+        with naming(path):
+            return cls._of(_engine.World.replay(data, populations.kinds(), fields.kinds()))
+
+
+__all__ = ["Resident", "World"]
