@@ -1,0 +1,23 @@
+//! L-systems: parametric, stochastic, bracketed, conditional and context-sensitive, in the
+//! notation of cpfg, and the turtle that turns their strings into shapes.
+//!
+//! [`LSystem::parse`] reads a model, [`LSystem::derive`] rewrites its axiom to a [`ModuleString`].
+//!
+//! Sources: P. Prusinkiewicz and A. Lindenmayer, *The Algorithmic Beauty of Plants* (1990), for
+//! the formalism and the turtle; the cpfg program for the dialect. Angles in texts are degrees.
+
+mod context;
+mod derivation;
+mod diagnostic;
+mod expression;
+mod lexer;
+mod model;
+mod parser;
+mod preprocessor;
+mod source;
+mod string;
+
+pub use derivation::{Derivation, DerivationError, Limits};
+pub use diagnostic::{Diagnostic, Diagnostics, Place};
+pub use model::{Alphabet, LSystem, ModuleKind};
+pub use string::ModuleString;
