@@ -1,0 +1,34 @@
+//! The ready-made species.
+
+use std::sync::{Arc, OnceLock};
+
+use bioscope_core::{Error, Result};
+
+use super::FishSpecies;
+
+macro_rules! species {
+    ($($name:literal),*) => {
+        [$(($name, include_str!(concat!("../../../species/", $name, ".toml")))),*]
+    };
+}
+
+const FILES: [(&str, &str); 5] =
+    species!["anchovy", "anthias", "barracuda", "fusilier", "grey_reef_shark"];
+
+static READ: [OnceLock<Arc<FishSpecies>>; FILES.len()] = [const { OnceLock::new() }; FILES.len()];
+
+pub fn names() -> Vec<&'static str> {
+    FILES.iter().map(|(name, _)| *name).collect()
+}
+
+pub fn named(name: &str) -> Result<Arc<FishSpecies>> {
+    let number = FILES.iter().position(|(known, _)| *known == name).ok_or_else(|| {
+        let known = names().into_iter().map(String::from).collect();
+        Error::Unknown { kind: "species of fish", name: name.to_owned(), known }
+    })?;
+    if let Some(species) = READ[number].get() {
+        return Ok(Arc::clone(species));
+    }
+    let species = Arc::new(FishSpecies::parse(FILES[number].1, &format!("{name}.toml"))?);
+    Ok(Arc::clone(READ[number].get_or_init(|| species)))
+}
