@@ -54,6 +54,7 @@ impl Random {
     }
 
     /// The next 32 random bits.
+    #[inline]
     pub fn bits(&mut self) -> u32 {
         if self.used == 4 {
             self.words = philox4x32(self.counter, self.key);
@@ -65,11 +66,13 @@ impl Random {
     }
 
     /// Uniform in [0, 1).
+    #[inline]
     pub fn uniform(&mut self) -> f32 {
         (self.bits() >> 8) as f32 * (1.0 / 16_777_216.0)
     }
 
     /// Uniform in [low, high).
+    #[inline]
     pub fn range(&mut self, low: f32, high: f32) -> f32 {
         low + (high - low) * self.uniform()
     }
