@@ -1,6 +1,6 @@
 use std::collections::BTreeMap;
 
-use bioscope_core::{Intention, Parameters, Result, SoundEvent, Value, Vec3};
+use bioscope_core::{Intention, Parameters, Random, Result, SoundEvent, Value, Vec3};
 use bioscope_dynamics::Influence;
 use bioscope_geometry::Transform;
 
@@ -17,6 +17,10 @@ pub trait Body: Send + Sync {
 
     /// Sets it down at a place in metres, looking along `heading`, at rest.
     fn put(&mut self, position: Vec3, heading: Vec3);
+
+    /// Makes it differ from its kin, once, before it lives: by up to `variation` of its size, and in
+    /// the phase of its motion.
+    fn vary(&mut self, _variation: f32, _random: &mut Random) {}
 
     /// Moves it by this many metres out of something that it has run into.
     fn shift(&mut self, offset: Vec3);
@@ -60,5 +64,5 @@ pub trait Body: Send + Sync {
     }
 
     /// Complete state, parameters included, as bytes.
-    fn save(&self) -> Vec<u8>;
+    fn save(&self) -> Result<Vec<u8>>;
 }

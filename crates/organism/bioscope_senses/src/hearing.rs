@@ -65,7 +65,7 @@ impl Sense for Hearing {
         Some(&mut self.parameters)
     }
 
-    fn save(&self) -> Vec<u8> {
-        state::to_bytes(self)
+    fn save(&self) -> Result<Vec<u8>> {
+        Ok(state::to_bytes(self))
     }
 }

@@ -18,7 +18,7 @@ impl Sense for LateralLine {
         Ok(())
     }
 
-    fn save(&self) -> Vec<u8> {
-        state::to_bytes(self)
+    fn save(&self) -> Result<Vec<u8>> {
+        Ok(state::to_bytes(self))
     }
 }

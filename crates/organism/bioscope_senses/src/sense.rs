@@ -29,7 +29,7 @@ pub trait Sense: Send + Sync {
     }
 
     /// Complete state, parameters included, as bytes.
-    fn save(&self) -> Vec<u8>;
+    fn save(&self) -> Result<Vec<u8>>;
 }
 
 /// The sense that [`save`](Sense::save) wrote; refuses parameters outside their ranges.

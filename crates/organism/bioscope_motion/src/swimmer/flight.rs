@@ -3,8 +3,8 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use bioscope_core::{
-    Error, Intention, NOTHING, Parameters, Quat, Result, SoundEvent, Value, Vec3, math, parameters,
-    state,
+    Error, Intention, NOTHING, Parameters, Quat, Random, Result, SoundEvent, Value, Vec3, math,
+    parameters, state,
 };
 use bioscope_dynamics::Influence;
 use bioscope_geometry::Transform;
@@ -129,12 +129,6 @@ impl Swimmer {
         }
         Ok(Self { spine, motion })
     }
-
-    /// Begins somewhere in the cycle of its tail beat (radians), so that nobody beats in step.
-    pub fn start_phase(&mut self, phase: f32) {
-        self.motion.swim.phase = phase.rem_euclid(math::TAU);
-        self.motion.swim.mood = (phase * 2.7).rem_euclid(math::TAU);
-    }
 }
 
 impl Motion {
@@ -252,6 +246,14 @@ impl Body for Swimmer {
         motion.carried = Vec3::ZERO;
     }
 
+    fn vary(&mut self, variation: f32, random: &mut Random) {
+        let motion = &mut self.motion;
+        motion.scale *= 1.0 + random.range(-variation, variation).clamp(-0.9, 0.9);
+        motion.swim.phase = random.range(0.0, math::TAU);
+        motion.swim.mood = random.range(0.0, math::TAU);
+        motion.swim.fan = random.range(0.0, math::TAU);
+    }
+
     fn shift(&mut self, offset: Vec3) {
         self.motion.position += offset;
     }
@@ -318,7 +320,7 @@ impl Body for Swimmer {
         Some(&mut self.motion.parameters)
     }
 
-    fn save(&self) -> Vec<u8> {
-        state::to_bytes(&self.motion)
+    fn save(&self) -> Result<Vec<u8>> {
+        Ok(state::to_bytes(&self.motion))
     }
 }

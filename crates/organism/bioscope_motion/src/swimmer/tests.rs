@@ -146,12 +146,12 @@ proptest! {
         for _ in 0..ticks {
             one.advance(&intention, &influence, DT).unwrap();
         }
-        let mut two = Swimmer::restore(one.spine.clone(), &one.save()).unwrap();
+        let mut two = Swimmer::restore(one.spine.clone(), &one.save().unwrap()).unwrap();
         for _ in 0..50 {
             one.advance(&intention, &influence, DT).unwrap();
             two.advance(&intention, &influence, DT).unwrap();
         }
-        prop_assert_eq!(one.save(), two.save());
+        prop_assert_eq!(one.save().unwrap(), two.save().unwrap());
         let mut poses = vec![[Transform::IDENTITY; 6]; 2];
         one.pose(&mut poses[0]);
         two.pose(&mut poses[1]);

@@ -165,7 +165,7 @@ impl Sense for Sight {
         Some(&mut self.parameters)
     }
 
-    fn save(&self) -> Vec<u8> {
-        state::to_bytes(self)
+    fn save(&self) -> Result<Vec<u8>> {
+        Ok(state::to_bytes(self))
     }
 }

@@ -111,9 +111,12 @@ fn rocks_and_ground_hide_what_is_behind_them() {
 fn comes_back_from_its_bytes_and_refuses_senseless_ones() {
     let parameters = SightParameters { range: 12.0, ..SightParameters::default() };
     let sight = Sight::new(parameters);
-    assert_eq!(restore::<Sight>("sight", &sight.save()).unwrap().save(), sight.save());
+    assert_eq!(
+        restore::<Sight>("sight", &sight.save().unwrap()).unwrap().save().unwrap(),
+        sight.save().unwrap()
+    );
     let blind = Sight::new(SightParameters { range: -1.0, ..SightParameters::default() });
-    let error = restore::<Sight>("sight", &blind.save()).unwrap_err();
+    let error = restore::<Sight>("sight", &blind.save().unwrap()).unwrap_err();
     assert!(error.to_string().contains("range"), "{error}");
 }
 

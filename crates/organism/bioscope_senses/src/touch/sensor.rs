@@ -57,8 +57,8 @@ impl Sense for Touch {
         Some(&mut self.parameters)
     }
 
-    fn save(&self) -> Vec<u8> {
-        state::to_bytes(self)
+    fn save(&self) -> Result<Vec<u8>> {
+        Ok(state::to_bytes(self))
     }
 }
 
