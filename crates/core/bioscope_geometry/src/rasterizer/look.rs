@@ -1,0 +1,304 @@
+//! One look at a prepared scene: choose what may be seen, fill the z-buffer, color what is seen.
+
+use std::sync::Arc;
+
+use bioscope_core::{Id, Vec3};
+use rayon::prelude::*;
+
+use super::cover::{NOBODY, Sheet, Tests};
+use super::lens::{Lens, Seen, Stand};
+use super::prepare::{Prepared, Thing};
+use super::shade::Shader;
+use super::shafts::add_shafts;
+use super::spots::{Spot, spots};
+use super::view::{Strip, View};
+use crate::{Camera, Mesh};
+
+/// Views with more pixels than this are painted in strips by several threads.
+const SMALL: usize = 128 * 128;
+
+/// Rows per strip.
+const ROWS: usize = 24;
+
+/// Things that would be smaller than this many pixels are left out.
+const LEAST: f32 = 0.3;
+
+/// A thing to draw at one level of detail.
+#[derive(Clone, Copy, Debug)]
+struct Draw {
+    thing: Thing,
+    level: usize,
+    /// Rows of samples that it may touch.
+    rows: [u32; 2],
+    /// Number of its first triangle among all triangles of the look.
+    first: u32,
+}
+
+/// One look in the making.
+struct Look<'a> {
+    shader: Shader<'a>,
+    lens: &'a Lens,
+    /// Samples per pixel and direction.
+    samples: usize,
+    draws: Vec<Draw>,
+    spots: Vec<Spot>,
+}
+
+/// Memory that is used again and again.
+#[derive(Default)]
+struct Scratch {
+    sheet: Sheet,
+    seen: Vec<Seen>,
+}
+
+impl Prepared {
+    /// What a camera sees: `width` × `height` pixels of color, depth and identity. Large pictures are
+    /// painted by all threads; the result does not depend on their number.
+    pub fn look(&self, camera: &Camera, width: usize, height: usize) -> View {
+        let lens = Lens::new(camera, width, height, self.samples());
+        self.look_through(&lens, camera, [width, height], &mut Scratch::default())
+    }
+
+    /// What each camera sees, in their order, worked out by all threads.
+    pub fn look_many(&self, cameras: &[Camera], width: usize, height: usize) -> Vec<View> {
+        let mut lenses: Vec<Arc<Lens>> = Vec::new();
+        let mut lens_of = |camera: &Camera| {
+            let known = lenses.iter().rev().find(|lens| lens.fits(camera));
+            known.cloned().unwrap_or_else(|| {
+                lenses.push(Arc::new(Lens::new(camera, width, height, self.samples())));
+                lenses[lenses.len() - 1].clone()
+            })
+        };
+        let jobs: Vec<_> = cameras.iter().map(|camera| (camera, lens_of(camera))).collect();
+        jobs.par_iter()
+            .map_init(Scratch::default, |scratch, (camera, lens)| {
+                self.look_through(lens, camera, [width, height], scratch)
+            })
+            .collect()
+    }
+
+    fn samples(&self) -> usize {
+        if self.options.smooth { 2 } else { 1 }
+    }
+
+    fn look_through(
+        &self,
+        lens: &Lens,
+        camera: &Camera,
+        [width, height]: [usize; 2],
+        scratch: &mut Scratch,
+    ) -> View {
+        let mut view = View::empty(width, height);
+        if width * height == 0 {
+            return view;
+        }
+        let samples = self.samples();
+        let stand = Stand::new(camera);
+        let shader = Shader { prepared: self, stand, pitch: lens.pitch() * samples as f32 };
+        let spots = spots(self, &shader, lens, samples);
+        let draws = self.draws(lens, &stand, samples);
+        let look = Look { shader, lens, samples, draws, spots };
+        if width * height <= SMALL {
+            for mut strip in view.strips(height) {
+                look.paint(&mut strip, scratch);
+            }
+        } else {
+            let strips = view.strips(ROWS);
+            strips.into_par_iter().for_each_init(Scratch::default, |scratch, mut strip| {
+                look.paint(&mut strip, scratch);
+            });
+        }
+        if self.options.smooth {
+            add_shafts(&mut view, &look.shader, lens, samples);
+        }
+        view
+    }
+
+    /// What may be seen: not outside the view, not lost in the haze, not too small.
+    fn draws(&self, lens: &Lens, stand: &Stand, samples: usize) -> Vec<Draw> {
+        let farthest = self.light.visibility().min(lens.far);
+        let detail = self.options.detail / samples as f32;
+        let mut draws = Vec::new();
+        let mut first: u32 = 0;
+        for thing in &self.things {
+            let center = stand.inward(thing.center);
+            let distance = center.length();
+            if distance - thing.radius > farthest {
+                continue;
+            }
+            let Some(rows) = lens.sees_ball(center, thing.radius) else { continue };
+            let size = lens.size(thing.radius, distance - 0.5 * thing.radius);
+            if size < LEAST * samples as f32 || rows[0] >= rows[1] {
+                continue;
+            }
+            let part = self.part(thing);
+            let level = part.level(size * detail);
+            let count = part.levels[level].1.triangles.len() as u32;
+            let Some(next) = first.checked_add(count).filter(|&next| next < NOBODY) else { break };
+            draws.push(Draw { thing: *thing, level, rows, first });
+            first = next;
+        }
+        draws
+    }
+}
+
+impl Look<'_> {
+    /// Fills a strip.
+    fn paint(&self, strip: &mut Strip, scratch: &mut Scratch) {
+        let rows = strip.rows.map(|row| row * self.samples);
+        let farthest = if self.lens.far.is_finite() { 1.0 / self.lens.far } else { 0.0 };
+        scratch.sheet.clear(self.lens.width, rows, farthest);
+        for draw in &self.draws {
+            let rows = [draw.rows[0].max(rows[0] as u32), draw.rows[1].min(rows[1] as u32)];
+            if rows[0] < rows[1] {
+                self.cover(draw, rows, scratch);
+            }
+        }
+        if self.samples == 1 {
+            self.color(strip, &scratch.sheet);
+        } else {
+            self.color_smoothly(strip, &scratch.sheet);
+        }
+        for spot in &self.spots {
+            spot.draw(strip);
+        }
+    }
+
+    /// Enters a thing's triangles in the z-buffer.
+    fn cover(&self, draw: &Draw, rows: [u32; 2], scratch: &mut Scratch) {
+        let prepared = self.shader.prepared;
+        let thing = &draw.thing;
+        let mesh: &Mesh = &prepared.part(thing).levels[draw.level].1;
+        let material = &prepared.scene.batches[thing.batch as usize].material;
+        let Scratch { sheet, seen } = scratch;
+        seen.clear();
+        let points = &prepared.posed(thing, draw.level).points;
+        seen.extend(points.iter().map(|&point| self.lens.see(self.shader.stand.inward(point))));
+        let (both, holes) = (material.two_sided, material.cutout && material.texture.is_some());
+        for (number, triangle) in mesh.triangles.iter().enumerate() {
+            let corners = triangle.map(|corner| &seen[corner as usize]);
+            let Some(window) = self.lens.window(corners, rows) else { continue };
+            let Some(tests) = self.tests(corners.map(|corner| corner.point), both) else { continue };
+            let owner = draw.first + number as u32;
+            if !holes {
+                sheet.cover(self.lens, &window, &tests, owner, None);
+                continue;
+            }
+            let corners = corners.map(|corner| corner.point);
+            let solid = |column: usize, row: usize| {
+                let ray = self.lens.ray(column, row).unwrap_or(Vec3::NEG_Z);
+                self.shader.solid(thing, mesh, *triangle, corners, ray)
+            };
+            sheet.cover(self.lens, &window, &tests, owner, Some(&solid));
+        }
+    }
+
+    /// The tests of a triangle given in camera space; none if it is seen from behind (unless `both`
+    /// sides show) or edge on.
+    #[inline(always)]
+    fn tests(&self, [a, b, c]: [Vec3; 3], both: bool) -> Option<Tests> {
+        let normal = (b - a).cross(c - a);
+        let height = normal.dot(a);
+        if height == 0.0 || !height.is_finite() || (height > 0.0 && !both) {
+            return None;
+        }
+        // Counterclockwise from outside means clockwise planes from the eye: turn them inward.
+        let sides = if height < 0.0 {
+            [c.cross(b), a.cross(c), b.cross(a)]
+        } else {
+            [b.cross(c), c.cross(a), a.cross(b)]
+        };
+        let coefficients = |test: Vec3| self.lens.coefficients(test);
+        let plane = coefficients(normal / height);
+        Some(Tests::new(sides.map(coefficients), plane, 1.0 / self.lens.near))
+    }
+
+    /// One sample per pixel.
+    fn color(&self, strip: &mut Strip, sheet: &Sheet) {
+        for row in strip.rows[0]..strip.rows[1] {
+            let line = (row - strip.rows[0]) * sheet.stride();
+            for column in 0..strip.width {
+                let Some(ray) = self.lens.ray(column, row) else { continue };
+                let (owner, nearness) = (sheet.owners()[line + column], sheet.nearness()[line + column]);
+                let index = (row - strip.rows[0]) * strip.width + column;
+                let (color, depth, identity) = self.sample(owner, nearness, ray);
+                strip.color[index] = color.to_array();
+                strip.depth[index] = depth;
+                strip.identity[index] = identity;
+            }
+        }
+    }
+
+    /// Four samples per pixel; samples of one thing at about one distance are colored once.
+    fn color_smoothly(&self, strip: &mut Strip, sheet: &Sheet) {
+        let (owners, nearness, stride) = (sheet.owners(), sheet.nearness(), sheet.stride());
+        for row in strip.rows[0]..strip.rows[1] {
+            for column in 0..strip.width {
+                let first = (row - strip.rows[0]) * 2 * stride + column * 2;
+                let places = [first, first + 1, first + stride, first + stride + 1];
+                let mut groups = [(0, 0u32); 4];
+                let mut count = 0;
+                for place in places {
+                    let same = |&&mut (other, _): &&mut (usize, u32)| {
+                        self.alike([owners[place], owners[other]], [nearness[place], nearness[other]])
+                    };
+                    match groups[..count].iter_mut().find(same) {
+                        Some(group) => group.1 += 1,
+                        None => {
+                            groups[count] = (place, 1);
+                            count += 1;
+                        }
+                    }
+                }
+                let mut color = Vec3::ZERO;
+                let mut best = (0, f32::INFINITY, 0);
+                for &(place, share) in &groups[..count] {
+                    let inside = place - first;
+                    let (aside, down) = (inside % stride, inside / stride);
+                    let Some(ray) = self.lens.ray(column * 2 + aside, row * 2 + down) else { continue };
+                    let (radiance, depth, identity) = self.sample(owners[place], nearness[place], ray);
+                    color += radiance * (share as f32 * 0.25);
+                    if share > best.0 {
+                        best = (share, depth, identity);
+                    }
+                }
+                let index = (row - strip.rows[0]) * strip.width + column;
+                strip.color[index] = color.to_array();
+                (strip.depth[index], strip.identity[index]) = (best.1, best.2);
+            }
+        }
+    }
+
+    /// Whether two samples see the same thing at about the same distance.
+    #[inline(always)]
+    fn alike(&self, owners: [u32; 2], nearness: [f32; 2]) -> bool {
+        if owners[0] == owners[1] {
+            return true;
+        }
+        if owners.contains(&NOBODY) || (nearness[0] - nearness[1]).abs() > 0.02 * nearness[0] {
+            return false;
+        }
+        let [a, b] = owners.map(|owner| self.draw_of(owner));
+        a.first == b.first
+    }
+
+    #[inline(always)]
+    fn draw_of(&self, owner: u32) -> &Draw {
+        &self.draws[self.draws.partition_point(|draw| draw.first <= owner) - 1]
+    }
+
+    /// Color, depth and identity of a sample, given its unit ray in camera space.
+    #[inline(always)]
+    fn sample(&self, owner: u32, nearness: f32, ray: Vec3) -> (Vec3, f32, Id) {
+        let direction = self.shader.stand.outward(ray);
+        if owner == NOBODY {
+            return (self.shader.background(direction), f32::INFINITY, 0);
+        }
+        let along = if self.lens.rays.is_some() { 1.0 } else { -ray.z };
+        let distance = 1.0 / (nearness * along);
+        let draw = self.draw_of(owner);
+        let triangle = (owner - draw.first) as usize;
+        let color = self.shader.surface(&draw.thing, draw.level, triangle, direction, distance);
+        (color, distance, draw.thing.id)
+    }
+}
