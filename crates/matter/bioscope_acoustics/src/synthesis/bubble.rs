@@ -1,6 +1,7 @@
+use bioscope_core::Vec2;
 use bioscope_core::math::{self, TAU};
 
-use super::{Cue, Decay};
+use super::Cue;
 
 /// How fast the pitch rises, in shares of the damping: a bubble near the surface rings higher as
 /// it rises (van den Doel, "Physically based models for liquid sounds", 2005).
@@ -11,6 +12,8 @@ const SILENCE: f32 = 7.0;
 const ATTACK: f32 = 0.6;
 /// Seconds of faint noise as it breaks away.
 const BREAKING: f32 = 0.006;
+/// Level of that noise.
+const BREATH: f32 = 0.08;
 /// Bubbles per second in a stream.
 const STREAM: f32 = 16.0;
 
@@ -34,23 +37,24 @@ pub fn synthesize(cue: &mut Cue) -> Vec<f32> {
 pub fn ring(clip: &mut [f32], cue: &mut Cue, start: f32, pitch: f32, level: f32) {
     let pitch = pitch.clamp(20.0, 0.3 * cue.rate);
     let damping = damping(pitch);
-    let mut decay = Decay::new(1.0 / damping, cue.rate);
+    let shrinking = math::exp(-damping / cue.rate);
+    let rising = ATTACK / pitch;
     let first = cue.frames(start).min(clip.len());
     let frames = cue.frames(SILENCE / damping);
-    let rising = ATTACK / pitch;
-    let mut phase = 0.0;
+    // The oscillation is a shrinking pointer that turns by a nearly constant angle per sample.
+    let (mut pointer, mut turn) = (Vec2::new(level, 0.0), Vec2::X);
     for (index, sample) in clip[first..].iter_mut().take(frames).enumerate() {
         let time = index as f32 / cue.rate;
+        if index % 16 == 0 {
+            let angle = TAU * pitch * (1.0 + RISE * damping * time) / cue.rate;
+            turn = shrinking * Vec2::new(math::cos(angle), math::sin(angle));
+        }
         let attack = if time < rising { math::smoothstep(0.0, rising, time) } else { 1.0 };
-        let envelope = level * decay.next() * attack;
-        *sample += envelope * math::sin(TAU * phase);
+        *sample += attack * pointer.y;
         if time < BREAKING {
-            *sample += 0.1 * envelope * cue.noise();
+            *sample += BREATH * level * attack * (1.0 - time / BREAKING) * cue.noise();
         }
-        phase += pitch * (1.0 + RISE * damping * time) / cue.rate;
-        if phase >= 1.0 {
-            phase -= 1.0;
-        }
+        pointer = turn.rotate(pointer);
     }
 }
 

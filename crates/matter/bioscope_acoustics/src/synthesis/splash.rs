@@ -5,7 +5,7 @@ use super::filter::{BandPass, LowPass};
 use super::{Cue, Decay};
 
 /// Bubbles per second of duration in the trail.
-const BUBBLES: f32 = 34.0;
+const BUBBLES: f32 = 28.0;
 
 /// A burst of noise that darkens as it dies away, and the bubbles it leaves behind.
 pub fn synthesize(cue: &mut Cue) -> Vec<f32> {

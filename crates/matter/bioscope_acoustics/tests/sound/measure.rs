@@ -93,8 +93,9 @@ pub fn frequency(samples: &[f32]) -> f64 {
     (crossings.len() - 1) as f64 * f64::from(RATE) / (last - first)
 }
 
-/// Lag in samples at which `clip` is best found in `heard`.
+/// Lag in samples at which the first hundredth of a second of `clip` is best found in `heard`.
 pub fn lag(clip: &[f32], heard: &[f32]) -> usize {
+    let clip = &clip[..480];
     let match_at = |lag: usize| -> f32 {
         clip.iter().zip(&heard[lag..]).map(|(clip, heard)| clip * heard).sum()
     };
@@ -116,10 +117,10 @@ pub fn power(samples: &[f32], hertz: f64) -> f64 {
     real * real + imaginary * imaginary
 }
 
-/// Frequency in hertz on both sides of which lies half the power, in steps of 25 Hz.
+/// Frequency in hertz on both sides of which lies half the power, in steps of 50 Hz.
 pub fn middle_frequency(samples: &[f32]) -> f64 {
-    let spectrum: Vec<(f64, f64)> = (1..640)
-        .map(|step| 25.0 * f64::from(step))
+    let spectrum: Vec<(f64, f64)> = (1..320)
+        .map(|step| 50.0 * f64::from(step))
         .map(|hertz| (hertz, power(samples, hertz)))
         .collect();
     let half = 0.5 * spectrum.iter().map(|(_, power)| power).sum::<f64>();

@@ -38,7 +38,7 @@ fn every_kind_has_its_color() {
         ("crackle", 2_500.0, 8_000.0),
         ("swish", 120.0, 450.0),
         ("rasp", 1_800.0, 3_800.0),
-        ("tone", 425.0, 475.0),
+        ("tone", 400.0, 450.0),
     ];
     assert_eq!(ranges.len(), KINDS.len());
     for (word, low, high) in ranges {
