@@ -2,9 +2,7 @@
 
 use bioscope_core::{Error, Result, Vec3};
 use numpy::ndarray::{ArrayView, Dimension, StrideShape};
-use numpy::{
-    Element, PyArray, PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray2,
-};
+use numpy::{Element, PyArray, PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray2};
 use pyo3::prelude::*;
 
 pub type Array1<'py, T> = Bound<'py, PyArray1<T>>;
@@ -45,7 +43,10 @@ pub fn vectors(name: &str, array: &PyReadonlyArray2<'_, f32>) -> Result<Vec<Vec3
     Ok(rows(name, array, 3)?.chunks_exact(3).map(Vec3::from_slice).collect())
 }
 
-fn finite<'a>(name: &str, numbers: std::borrow::Cow<'a, [f32]>) -> Result<std::borrow::Cow<'a, [f32]>> {
+fn finite<'a>(
+    name: &str,
+    numbers: std::borrow::Cow<'a, [f32]>,
+) -> Result<std::borrow::Cow<'a, [f32]>> {
     match numbers.iter().position(|number| !number.is_finite()) {
         Some(index) => Err(Error::value(name, numbers[index], "finite numbers only")),
         None => Ok(numbers),

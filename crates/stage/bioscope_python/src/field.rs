@@ -62,8 +62,7 @@ impl PythonField {
             let module = py.import("bioscope.world.field")?;
             module.call_method1("rebuild", (kind, PyBytes::new(py, bytes))).map(Bound::unbind)
         };
-        let object =
-            Python::attach(build).map_err(|error| from_python(kind, "restore", error))?;
+        let object = Python::attach(build).map_err(|error| from_python(kind, "restore", error))?;
         Ok(Self { object, name: kind.to_owned() })
     }
 }

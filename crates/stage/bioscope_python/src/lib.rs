@@ -3,6 +3,7 @@
 
 use pyo3::prelude::*;
 
+mod acoustics;
 mod arrays;
 mod camera;
 mod error;
@@ -11,8 +12,10 @@ mod material;
 mod mesh;
 mod population;
 mod publication;
+mod rasterizer;
 mod rig;
 mod scene;
+mod stream;
 mod values;
 mod view;
 mod world;
@@ -23,6 +26,8 @@ mod _engine {
     #[pymodule_export]
     const VERSION: &str = env!("CARGO_PKG_VERSION");
 
+    #[pymodule_export]
+    use super::acoustics::SoundTrack;
     #[pymodule_export]
     use super::camera::Camera;
     #[pymodule_export]
@@ -36,7 +41,11 @@ mod _engine {
     #[pymodule_export]
     use super::publication::Publication;
     #[pymodule_export]
+    use super::rasterizer::Rasterizer;
+    #[pymodule_export]
     use super::scene::{Batch, Points, Scene};
+    #[pymodule_export]
+    use super::stream::Encoder;
     #[pymodule_export]
     use super::view::View;
     #[pymodule_export]

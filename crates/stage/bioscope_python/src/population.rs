@@ -50,12 +50,16 @@ impl PythonPopulation {
             let module = py.import("bioscope.world.population")?;
             module.call_method1("rebuild", (kind, PyBytes::new(py, bytes))).map(Bound::unbind)
         };
-        let population = Python::attach(build)
-            .and_then(|object| Self::new(object, kind.to_owned()));
+        let population =
+            Python::attach(build).and_then(|object| Self::new(object, kind.to_owned()));
         population.map_err(|error| from_python(kind, "restore", error))
     }
 
-    fn call(&self, verb: &'static str, body: impl FnOnce(&Bound<'_, PyAny>) -> PyResult<()>) -> Result<()> {
+    fn call(
+        &self,
+        verb: &'static str,
+        body: impl FnOnce(&Bound<'_, PyAny>) -> PyResult<()>,
+    ) -> Result<()> {
         Python::attach(|py| body(self.object.bind(py)))
             .map_err(|error| from_python(&self.name, verb, error))
     }

@@ -238,11 +238,9 @@ impl World {
         spacing: f32,
     ) -> PyResult<()> {
         let columns = heights.as_array().shape()[1];
-        let heights = heights.to_vec().map_err(|error| to_python(Error::value(
-            "heights",
-            error,
-            "a contiguous array",
-        )))?;
+        let heights = heights
+            .to_vec()
+            .map_err(|error| to_python(Error::value("heights", error, "a contiguous array")))?;
         let terrain = Terrain::new(origin, spacing, columns, heights).map_err(to_python)?;
         self.with(py, |world| {
             world.environment.terrain = Some(terrain.into());
@@ -273,8 +271,15 @@ impl World {
                 parameters.into_iter().map(move |(one, value)| {
                     let range = (one.minimum, one.maximum, one.default);
                     (
-                        owner.clone(), one.name, one.unit, range.0, range.1, range.2, one.meaning,
-                        one.source, value,
+                        owner.clone(),
+                        one.name,
+                        one.unit,
+                        range.0,
+                        range.1,
+                        range.2,
+                        one.meaning,
+                        one.source,
+                        value,
                     )
                 })
             });
@@ -315,9 +320,8 @@ impl World {
 
     /// Events from the `first`-th on, as tuples.
     fn events<'py>(&self, py: Python<'py>, first: usize) -> PyResult<Vec<Bound<'py, PyAny>>> {
-        let events = self.with(py, |world| {
-            Ok(world.events().get(first..).unwrap_or_default().to_vec())
-        })?;
+        let events =
+            self.with(py, |world| Ok(world.events().get(first..).unwrap_or_default().to_vec()))?;
         events.iter().map(|event| values::event(py, event)).collect()
     }
 

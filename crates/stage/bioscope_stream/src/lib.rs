@@ -1,0 +1,10 @@
+//! The wire format of the live stream (docs/reference/stream.md): a scene as MessagePack messages,
+//! shared things once, moving things quantized.
+
+mod asset;
+mod encoder;
+mod frame;
+mod layout;
+pub mod quantize;
+
+pub use encoder::{Asset, Encoder, Status, Update};

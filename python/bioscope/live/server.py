@@ -1,0 +1,360 @@
+"""The server of the live view: the page, and its WebSocket."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import errno
+import hmac
+import ipaddress
+import socket
+import threading
+import webbrowser
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+from urllib.parse import quote, urlsplit
+
+from bioscope import _engine
+from bioscope.errors import BioscopeError, FormatError, InvalidValueError
+from bioscope.live import messages
+from bioscope.live.inspection import inspection
+from bioscope.live.messages import encode
+from bioscope.live.session import Session
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable
+
+    from starlette.applications import Starlette
+    from starlette.requests import Request
+    from starlette.responses import Response
+    from starlette.websockets import WebSocket
+
+    from bioscope.world import World
+
+PAGE = Path(__file__).parent / "page"
+_PORTS_TO_TRY = 50
+_FRAMES_UNDER_WAY = 2
+_INSPECTIONS_PER_SECOND = 10
+_MESSAGES_QUEUED = 256
+_JOIN_WITHIN = 10.0
+REFUSED, MALFORMED, OTHER_VERSION = 4001, 4000, 4002
+"""Codes with which a page's connection is closed."""
+
+
+class Client:
+    """One page: its own camera and selection; slow ones miss frames, and nobody waits for them."""
+
+    def __init__(self, socket_: WebSocket) -> None:
+        self.socket = socket_
+        self.wake = asyncio.Event()
+        self.messages: asyncio.Queue[bytes] = asyncio.Queue(_MESSAGES_QUEUED)
+        self.known: set[int] = set()
+        self.revision = -1
+        self.number = -1
+        self.under_way = 0
+        self.selected = 0
+        self.retina = (96, 96)
+        self.annotations = False
+
+    def tell(self, message: bytes) -> None:
+        """Queue a message; drop the oldest if the page does not keep up."""
+        if self.messages.full():
+            self.messages.get_nowait()
+        self.messages.put_nowait(message)
+        self.wake.set()
+
+
+class Live:
+    """A session and the pages that watch it."""
+
+    def __init__(self, world: World | str, seed: int, token: str | None = None) -> None:
+        self._loop: asyncio.AbstractEventLoop | None = None
+        self.clients: set[Client] = set()
+        self.token = token
+        self.session = Session(world, seed, self._from_session)
+
+    def _from_session(self, message: bytes | None) -> None:
+        """Pass on what the session publishes, from its thread to the server's."""
+        loop = self._loop
+        if loop is not None and not loop.is_closed():
+            with contextlib.suppress(RuntimeError):
+                loop.call_soon_threadsafe(self._to_all, message)
+
+    def _to_all(self, message: bytes | None) -> None:
+        for client in self.clients:
+            if message is None:
+                client.wake.set()
+            else:
+                client.tell(message)
+
+    def app(self, hosts: Iterable[str] | None) -> Starlette:
+        """Return the web application; `hosts` are the names it answers to, none for any."""
+        from starlette.applications import Starlette
+        from starlette.routing import Route, WebSocketRoute
+
+        allowed = None if hosts is None else set(hosts)
+
+        def page(request: Request) -> Response:
+            return self._file(request, allowed)
+
+        async def stream(websocket: WebSocket) -> None:
+            await self._serve(websocket, allowed)
+
+        @contextlib.asynccontextmanager
+        async def lifespan(_: Starlette) -> Any:
+            self._loop = asyncio.get_running_loop()
+            self.session.start()
+            yield
+            self.session.close()
+
+        files = [Route(path, page) for path in ("/", "/index.html", "/widget.js")]
+        return Starlette(routes=[*files, WebSocketRoute("/stream", stream)], lifespan=lifespan)
+
+    def _file(self, request: Request, allowed: set[str] | None) -> Response:
+        from starlette.responses import PlainTextResponse
+        from starlette.responses import Response as Answer
+
+        if allowed is not None and request.url.hostname not in allowed:
+            return PlainTextResponse("unknown host", 421)
+        name = request.url.path.strip("/") or "index.html"
+        path = PAGE / name
+        if not path.is_file():
+            text = "The page was not built: run `make setup` in the checkout, or install the wheel."
+            return PlainTextResponse(text, 503)
+        kind = "text/html; charset=utf-8" if name.endswith(".html") else "text/javascript"
+        headers = {"Cache-Control": "no-cache", "X-Content-Type-Options": "nosniff"}
+        return Answer(path.read_bytes(), media_type=kind, headers=headers)
+
+    # One page's connection.
+
+    async def _serve(self, websocket: WebSocket, allowed: set[str] | None) -> None:
+        if not _same_origin(websocket, allowed):
+            await websocket.close(REFUSED)
+            return
+        await websocket.accept()
+        client = Client(websocket)
+        try:
+            if not await self._joined(client):
+                return
+            self.clients.add(client)
+            tasks = [
+                asyncio.ensure_future(job)
+                for job in (self._receive(client), self._send(client), self._inspect(client))
+            ]
+            _, pending = await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
+            for task in pending:
+                task.cancel()
+            await asyncio.gather(*tasks, return_exceptions=True)
+        finally:
+            self.clients.discard(client)
+            self._count_annotations()
+            with contextlib.suppress(Exception):
+                await websocket.close()
+
+    async def _joined(self, client: Client) -> bool:
+        """Wait for a fitting `join` as the first message."""
+        command: object = None
+        try:
+            text = await asyncio.wait_for(_text(client.socket), _JOIN_WITHIN)
+            command = messages.decode(text)
+        except (FormatError, TimeoutError) as error:
+            await self._refuse(client, MALFORMED, f"expected join first: {error}")
+            return False
+        except ConnectionError:
+            return False
+        if not isinstance(command, messages.Join):
+            await self._refuse(client, MALFORMED, "expected join first")
+            return False
+        given = (command.token or "").encode()
+        if self.token is not None and not hmac.compare_digest(given, self.token.encode()):
+            await self._refuse(client, REFUSED, "This world asks for a token: add ?token=… to the address.")
+            return False
+        if command.version != _engine.VERSION:
+            text = f"The page is of version {command.version}, the world of {_engine.VERSION}: reload."
+            await self._refuse(client, OTHER_VERSION, text)
+            return False
+        session = self.session
+        for message in (
+            session.hello(),
+            session.parameters(),
+            session.past_events(),
+            session.timeline_message(),
+        ):
+            client.tell(message)
+        return True
+
+    async def _refuse(self, client: Client, code: int, text: str) -> None:
+        with contextlib.suppress(Exception):
+            await client.socket.send_bytes(encode("notice", level="error", text=text))
+            await client.socket.close(code)
+
+    async def _receive(self, client: Client) -> None:
+        loop = asyncio.get_running_loop()
+
+        def answer(message: bytes) -> None:
+            with contextlib.suppress(RuntimeError):
+                loop.call_soon_threadsafe(client.tell, message)
+
+        while True:
+            try:
+                command = messages.decode(await _text(client.socket))
+            except ConnectionError:
+                return
+            except FormatError as error:
+                await self._refuse(client, MALFORMED, str(error))
+                return
+            match command:
+                case messages.Join():
+                    pass
+                case messages.Seen():
+                    client.under_way = max(0, client.under_way - 1)
+                    client.wake.set()
+                case messages.Select(id=chosen, retina=retina):
+                    client.selected, client.retina = chosen, retina
+                case messages.Annotations(on=on):
+                    client.annotations = on
+                    self._count_annotations()
+                case _:
+                    self.session.command(command, answer)
+
+    def _count_annotations(self) -> None:
+        self.session.annotations = sum(client.annotations for client in self.clients)
+
+    async def _send(self, client: Client) -> None:
+        while True:
+            await client.wake.wait()
+            client.wake.clear()
+            while not client.messages.empty():
+                await client.socket.send_bytes(client.messages.get_nowait())
+            now = self.session.snapshot
+            if now.number == client.number or client.under_way >= _FRAMES_UNDER_WAY:
+                continue
+            if now.revision != client.revision or not client.known.issuperset(now.assets):
+                for key, asset in now.assets.items():
+                    if key not in client.known:
+                        await client.socket.send_bytes(asset)
+                client.known = set(now.assets)
+                await client.socket.send_bytes(now.layout)
+                client.revision = now.revision
+            client.number = now.number
+            client.under_way += 1
+            await client.socket.send_bytes(now.annotated if client.annotations else now.frame)
+
+    async def _inspect(self, client: Client) -> None:
+        loop = asyncio.get_running_loop()
+        while True:
+            await asyncio.sleep(1 / _INSPECTIONS_PER_SECOND)
+            if not client.selected:
+                continue
+            chosen, size = client.selected, client.retina
+            world = self.session.world
+            with contextlib.suppress(BioscopeError):
+                client.tell(await loop.run_in_executor(None, inspection, world, chosen, size))
+
+
+async def _text(websocket: WebSocket) -> str | bytes:
+    """Return the next message; raise `ConnectionError` when the page has gone."""
+    message = await websocket.receive()
+    if message["type"] != "websocket.receive":
+        raise ConnectionError
+    text: str | bytes = message.get("text") or message.get("bytes") or ""
+    return text
+
+
+def _same_origin(websocket: WebSocket, allowed: set[str] | None) -> bool:
+    """Whether the page came from this server; programs that are no browsers send no origin."""
+    host = websocket.headers.get("host", "")
+    if allowed is not None and urlsplit(f"//{host}").hostname not in allowed:
+        return False
+    origin = websocket.headers.get("origin")
+    return origin is None or urlsplit(origin).netloc == host
+
+
+def is_loopback(host: str) -> bool:
+    """Whether an address can be reached from this machine only."""
+    if host == "localhost":
+        return True
+    try:
+        return ipaddress.ip_address(host).is_loopback
+    except ValueError:
+        return False
+
+
+def listening(host: str, port: int, say: Callable[..., None]) -> socket.socket:
+    """Return a socket that listens at the port, or at the next free one.
+
+    Raises
+    ------
+    InvalidValueError
+        If the address cannot be listened at.
+    """
+    family = socket.AF_INET6 if ":" in host else socket.AF_INET
+    for candidate in range(port, min(port + _PORTS_TO_TRY, 65536)):
+        listener = socket.socket(family, socket.SOCK_STREAM)
+        listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        try:
+            listener.bind((host, candidate))
+            listener.listen()
+        except OSError as error:
+            listener.close()
+            if error.errno == errno.EADDRINUSE:
+                continue
+            raise InvalidValueError(f"--host {host} --port {candidate}: {error.strerror}") from None
+        if candidate != port:
+            say(f"port {port} is in use: took {candidate}")
+        return listener
+    raise InvalidValueError(f"--port {port}: this and the next {_PORTS_TO_TRY - 1} are in use")
+
+
+def serve(
+    world: World | str,
+    *,
+    seed: int = 0,
+    host: str = "127.0.0.1",
+    port: int = 8765,
+    token: str | None = None,
+    open_browser: bool = True,
+    say: Callable[..., None] = print,
+) -> None:
+    """Serve the live view until interrupted.
+
+    Parameters
+    ----------
+    world, seed
+        A world, or the name or path of one and its seed.
+    host, port, token
+        Where to listen; a port in use gives way to the next free one. Addresses beyond this machine need
+        a token, which pages must know.
+    open_browser
+        Whether to open the page.
+    say
+        Called with messages.
+
+    Raises
+    ------
+    InvalidValueError
+        For an address beyond this machine without a token, or one that cannot be listened at.
+    """
+    import uvicorn
+
+    if not is_loopback(host) and not token:
+        raise InvalidValueError(f"--host {host}: expected --token too, for others can reach it")
+    listener = listening(host, port, say)
+    live = Live(world, seed, token)
+    hosts = {host, "localhost", "127.0.0.1", "::1"} if is_loopback(host) else None
+    config = uvicorn.Config(
+        live.app(hosts),
+        log_level="warning",
+        ws_max_size=messages.LARGEST_MESSAGE,
+        ws_per_message_deflate=False,
+        timeout_graceful_shutdown=1,
+    )
+    shown = f"[{host}]" if ":" in host else host
+    address = f"http://{shown}:{listener.getsockname()[1]}/"
+    if token:
+        address += f"?token={quote(token)}"
+    say(f"{live.session.world.title}: seed {live.session.world.seed}")
+    say(f"live at {address}  (Ctrl-C ends it)")
+    if open_browser:
+        threading.Timer(0.5, webbrowser.open, [address]).start()
+    uvicorn.Server(config).run(sockets=[listener])

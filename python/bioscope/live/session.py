@@ -1,0 +1,306 @@
+"""One running world, watched by any number of pages that never hold it up."""
+
+from __future__ import annotations
+
+import threading
+import time
+import traceback
+from collections import deque
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+from bioscope import _engine, worlds
+from bioscope.errors import BioscopeError
+from bioscope.live import messages
+from bioscope.live.messages import encode
+from bioscope.live.timeline import Timeline
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from bioscope.live.messages import AnyCommand
+    from bioscope.world import World
+
+FRAMES_PER_SECOND = 30.0
+_STATISTICS_EVERY = 0.5
+_TIMELINE_EVERY = 1.0
+_MOST_CATCH_UP = 0.1
+_EVENTS_KEPT = 500
+_SLICE = 0.02
+"""Seconds of ticks between two looks at the commands."""
+
+
+@dataclass
+class Snapshot:
+    """The newest state of the stream, shared by all pages."""
+
+    revision: int = 0
+    layout: bytes = b""
+    assets: dict[int, bytes] = field(default_factory=dict)
+    frame: bytes = b""
+    annotated: bytes = b""
+    tick: int = -1
+    number: int = 0
+
+
+class Session:
+    """A world in a thread of its own.
+
+    Parameters
+    ----------
+    world
+        The world to run, or the name or path of one.
+    seed
+        Seed, if `world` is a name.
+    publish
+        Called from the session's thread: with nothing when a newer `snapshot` is there, with a message that
+        every page should get, otherwise.
+    """
+
+    def __init__(
+        self, world: World | str, seed: int, publish: Callable[[bytes | None], None]
+    ) -> None:
+        self.name = world if isinstance(world, str) else world.title
+        self._load = isinstance(world, str)
+        self.world = worlds.load(world, seed) if isinstance(world, str) else world
+        self._publish = publish
+        self._commands: deque[tuple[AnyCommand, Callable[[bytes], None]]] = deque()
+        self._wake = threading.Event()
+        self._closed = False
+        self.running = True
+        self.speed: float | None = 1.0
+        self.rate = 0.0
+        self.annotations = 0
+        """How many pages want annotations."""
+        self.events: deque[dict[str, Any]] = deque(maxlen=_EVENTS_KEPT)
+        self.snapshot = Snapshot()
+        self._begin()
+        self._thread = threading.Thread(target=self._run, name="bioscope-world", daemon=True)
+
+    def start(self) -> None:
+        """Begin to run."""
+        self._thread.start()
+
+    def close(self) -> None:
+        """Stop for good."""
+        self._closed = True
+        self._wake.set()
+        if self._thread.is_alive():
+            self._thread.join(timeout=10)
+
+    def command(self, command: AnyCommand, answer: Callable[[bytes], None]) -> None:
+        """Pass on a page's command; `answer` is called from the session's thread."""
+        if len(self._commands) < 1000:
+            self._commands.append((command, answer))
+        self._wake.set()
+
+    def _begin(self) -> None:
+        self.timeline = Timeline(self.world)
+        self._encoder = _engine.Encoder()
+        self._newest_event = self.world.tick
+        self.events.clear()
+        self.world.drain_events()
+        self._frame()
+
+    # What pages are told.
+
+    def hello(self) -> bytes:
+        """Return the first message to a page."""
+        return encode(
+            "hello",
+            version=_engine.VERSION,
+            world=self.name,
+            title=self.world.title,
+            seed=self.world.seed,
+            dt=self.world.dt,
+            cameras=self.world.cameras.describe(),
+            shots=self.world.shots,
+            page=["restart"] if self._load else [],
+        )
+
+    def parameters(self) -> bytes:
+        """Return the message that describes all parameters."""
+        owners: dict[str, list[dict[str, Any]]] = {}
+        for row in self.world.parameters():
+            one = {name: getattr(row, name) for name in row.__slots__ if name != "owner"}
+            owners.setdefault(row.owner, []).append(one)
+        table = [{"name": name, "parameters": rows} for name, rows in owners.items()]
+        return encode("parameters", owners=table)
+
+    def past_events(self) -> bytes:
+        """Return the message with the last events."""
+        return encode("events", events=list(self.events))
+
+    def timeline_message(self) -> bytes:
+        """Return the message that says between which ticks one may seek."""
+        return encode("timeline", first=self.timeline.first, last=self.timeline.last)
+
+    # The thread.
+
+    def _run(self) -> None:
+        self._clock = time.perf_counter()
+        self._due = 0.0
+        next_frame = next_statistics = next_timeline = self._clock
+        counted, counted_at = self.world.tick, self._clock
+        while not self._closed:
+            changed = self._obey()
+            now = time.perf_counter()
+            if self.running:
+                self._advance(now)
+                now = time.perf_counter()
+            if changed or (self.running and now >= next_frame):
+                self._frame()
+                next_frame = max(next_frame + 1 / FRAMES_PER_SECOND, now)
+            if now >= next_statistics:
+                next_statistics = now + _STATISTICS_EVERY
+                self.rate = max(0.0, (self.world.tick - counted) / max(now - counted_at, 1e-6))
+                counted, counted_at = self.world.tick, now
+                self._tell_statistics()
+            if now >= next_timeline:
+                next_timeline = now + _TIMELINE_EVERY
+                self._publish(self.timeline_message())
+            self._rest(next_frame, next_statistics)
+
+    def _rest(self, next_frame: float, next_statistics: float) -> None:
+        """Sleep until the next tick or frame is due, or a command comes."""
+        if self.running and self.speed is None:
+            return
+        wake = next_statistics
+        if self.running and self.speed is not None:
+            wake = min(next_frame, time.perf_counter() + self.world.dt / self.speed / 2)
+        if self._wake.wait(max(0.0, wake - time.perf_counter())):
+            self._wake.clear()
+
+    def _advance(self, now: float) -> None:
+        """Make the ticks that are due, but at most a slice of them."""
+        elapsed, self._clock = min(now - self._clock, _MOST_CATCH_UP), now
+        dt = self.world.dt
+        if self.speed is None:
+            self._due = float("inf")
+        else:
+            self._due = min(self._due + elapsed * self.speed / dt, _MOST_CATCH_UP * self.speed / dt + 1)
+        try:
+            while self._due >= 1 and time.perf_counter() - now < _SLICE:
+                self.timeline.step()
+                self._due -= 1
+        except Exception as error:
+            self._fail(error)
+        if self.speed is None:
+            self._due = 0.0
+        self._tell_events()
+
+    def _fail(self, error: Exception) -> None:
+        """Stop at the last complete tick and say why."""
+        self.running = False
+        told = traceback.format_exception(error)[-1] if not isinstance(error, BioscopeError) else error
+        place = traceback.extract_tb(error.__traceback__)[-1]
+        text = f"The world stopped at tick {self.world.tick}: {str(told).strip()}"
+        if not isinstance(error, BioscopeError):
+            text += f" ({place.filename}:{place.lineno})"
+        self._publish(encode("notice", level="error", text=text))
+        self._frame()
+
+    def _frame(self) -> None:
+        scene = self.world.scene
+        status = {"running": self.running, "speed": self.speed, "rate": self.rate}
+        revision, layout, frame = self._encoder.encode(scene, **status)
+        annotated = frame
+        if self.annotations:
+            _, _, annotated = self._encoder.encode(scene, **status, annotations=True)
+        old = self.snapshot
+        self.snapshot = Snapshot(
+            revision=revision,
+            layout=layout or old.layout,
+            assets=dict(self._encoder.assets()) if layout else old.assets,
+            frame=frame,
+            annotated=annotated,
+            tick=scene.tick,
+            number=old.number + 1,
+        )
+        self._publish(None)
+
+    def _tell_events(self) -> None:
+        """Send events that were not sent before (a replayed past brings none)."""
+        new = [one.as_dict() for one in self.world.drain_events() if one.tick > self._newest_event]
+        if new:
+            self._newest_event = new[-1]["tick"]
+            self.events.extend(new)
+            self._publish(encode("events", events=new[-_EVENTS_KEPT:]))
+
+    def _tell_statistics(self) -> None:
+        world = self.world
+        self._publish(
+            encode("statistics", tick=world.tick, time=world.time, values=world.statistics())
+        )
+
+    # Commands.
+
+    def _obey(self) -> bool:
+        """Carry out the commands that have come; return whether the picture changed."""
+        changed = False
+        while self._commands:
+            command, answer = self._commands.popleft()
+            try:
+                self._carry_out(command, answer)
+            except Exception as error:
+                answer(encode("notice", level="error", text=str(error) or type(error).__name__))
+            changed = True
+        return changed
+
+    def _carry_out(self, command: AnyCommand, answer: Callable[[bytes], None]) -> None:
+        match command:
+            case messages.Play():
+                self._set_running(running=True)
+            case messages.Pause():
+                self._set_running(running=False)
+            case messages.Step(ticks=ticks):
+                self._set_running(running=False)
+                for _ in range(ticks):
+                    self.timeline.step()
+                self._tell_events()
+            case messages.Back(ticks=ticks):
+                self._set_running(running=False)
+                self._seek(self.world.tick - ticks)
+            case messages.Seek(tick=tick):
+                self._seek(tick)
+            case messages.Speed(factor=factor):
+                self.speed = factor
+                self._due = 0.0
+            case messages.Set(owner=owner, name=name, value=value):
+                self.timeline.change(owner, name, value)
+                self._newest_event = min(self._newest_event, self.world.tick)
+                self._publish(self.parameters())
+            case messages.Restart():
+                self._restart(command)
+            case messages.Snapshot():
+                name = f"{self.world.title}-{self.world.tick}.world"
+                answer(encode("snapshot", name=name, bytes=self.world._engine.save()))
+
+    def _set_running(self, *, running: bool) -> None:
+        if running and not self.running:
+            self._clock, self._due = time.perf_counter(), 0.0
+        self.running = running
+
+    def _seek(self, tick: int) -> None:
+        self.timeline.seek(tick)
+        self._clock, self._due = time.perf_counter(), 0.0
+        self._tell_events()
+
+    def _restart(self, command: messages.Restart) -> None:
+        seed = self.world.seed if command.seed is None else command.seed
+        if self._load:
+            self.world = worlds.load(self.name, seed)
+        elif seed == self.world.seed:
+            self.timeline.seek(self.timeline.first)
+        else:
+            raise BioscopeError("this world was made by a program: run it again for another seed")
+        self._begin()
+        for owner, name, value in command.set:
+            self.timeline.change(owner, name, value)
+        while self.world.tick < command.tick and not self._closed:
+            self.timeline.step()
+        self._clock, self._due = time.perf_counter(), 0.0
+        self._publish(self.hello())
+        self._publish(self.parameters())
+        self._publish(self.timeline_message())
+        self._frame()

@@ -1,0 +1,111 @@
+"""Ready-made worlds, one folder each, and the way to one's own."""
+
+from __future__ import annotations
+
+import importlib
+import importlib.util
+import sys
+import traceback
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from bioscope.errors import BioscopeError, FormatError, UnknownNameError
+from bioscope.world import World
+
+if TYPE_CHECKING:
+    from types import ModuleType
+
+_FOLDER = Path(__file__).parent
+
+
+def names() -> dict[str, str]:
+    """Return the ready-made worlds by name, each with its one-line description."""
+    folders = sorted(one.parent.name for one in _FOLDER.glob("*/world.py"))
+    return {name: _summary(_FOLDER / name / "world.py") for name in folders}
+
+
+def _summary(path: Path) -> str:
+    """Return the first line of a module's docstring without running it."""
+    first = path.read_text(encoding="utf-8").lstrip().splitlines()[0]
+    return first.strip('"').rstrip(".")
+
+
+def load(name: str, seed: int | None = None) -> World:
+    """Make a world.
+
+    Parameters
+    ----------
+    name
+        A ready-made world (see `names`), or the path of a Python file that defines
+        `world(seed: int) -> bioscope.World`, or of a saved world.
+    seed
+        Its seed; one is drawn if not given.
+
+    Raises
+    ------
+    UnknownNameError
+        If there is no such world.
+    FormatError
+        If the file is no world script, or it fails; the message says where.
+    """
+    if seed is None:
+        import secrets
+
+        seed = secrets.randbits(32)
+    if name in names():
+        module = importlib.import_module(f"bioscope.worlds.{name}.world")
+        return _made(module, name, seed)
+    path = Path(name)
+    if path.suffix == ".world" and path.is_file():
+        return World.restore(path)
+    if path.is_file():
+        return _made(_script(path), name, seed)
+    if path.suffix or len(path.parts) > 1:
+        raise UnknownNameError(f"{name}: no such file")
+    known = ", ".join(names())
+    raise UnknownNameError(f"unknown world '{name}'; known: {known}, or the path of a Python file")
+
+
+def _script(path: Path) -> ModuleType:
+    spec = importlib.util.spec_from_file_location(f"bioscope_script_{path.stem}", path)
+    if spec is None or spec.loader is None:
+        raise FormatError(f"{path}: expected a Python file that defines world(seed)")
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[spec.name] = module
+    sys.path.insert(0, str(path.parent))
+    try:
+        spec.loader.exec_module(module)
+    except Exception as error:
+        raise FormatError(_place(path, error)) from error
+    finally:
+        sys.path.remove(str(path.parent))
+    return module
+
+
+def _made(module: ModuleType, name: str, seed: int) -> World:
+    make = getattr(module, "world", None)
+    if not callable(make):
+        raise FormatError(f"{name}: expected a function world(seed) that returns a bioscope.World")
+    path = Path(str(module.__file__))
+    try:
+        world = make(seed)
+    except BioscopeError as error:
+        raise type(error)(_place(path, error)) from error
+    except Exception as error:
+        raise FormatError(_place(path, error)) from error
+    if not isinstance(world, World):
+        found = type(world).__name__
+        raise FormatError(f"{name}: world(seed) returned {found}: expected a bioscope.World")
+    return world
+
+
+def _place(path: Path, error: BaseException) -> str:
+    """Return `file:line: ErrorType: message` for the innermost line of the script itself."""
+    if isinstance(error, SyntaxError):
+        column = f":{error.offset}" if error.offset else ""
+        return f"{error.filename or path}:{error.lineno}{column}: {error.msg}"
+    frames = traceback.extract_tb(error.__traceback__)
+    lines = [one.lineno for one in frames if Path(one.filename) == path or one.filename == str(path)]
+    line = f":{lines[-1]}" if lines else ""
+    kind = "" if isinstance(error, BioscopeError) else f"{type(error).__name__}: "
+    return f"{path}{line}: {kind}{error}"
