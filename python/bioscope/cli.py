@@ -170,6 +170,7 @@ def film(
     Example: bioscope film reef -o reef.mp4 --seconds 10 --seed 7
     """
     from bioscope.film import FilmOptions, film_world, parse_size
+    from bioscope.film.film import seed_of_partial
 
     if output is None and frames is None:
         raise typer.BadParameter("expected a file to write", param_hint="--output")
@@ -181,6 +182,7 @@ def film(
         camera=camera,
         samples=samples,
     )
+    seed = seed_of_partial(output, frames, options) if seed is None else seed
     film_world(opened(world, seed), output, options, frames=frames, say=say)
 
 

@@ -1,0 +1,6 @@
+"""Film: a world seen through cameras, with the sound of the place, in a file."""
+
+from bioscope.film.film import film_world
+from bioscope.film.options import FilmOptions, parse_size
+
+__all__ = ["FilmOptions", "film_world", "parse_size"]
