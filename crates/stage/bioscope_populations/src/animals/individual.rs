@@ -1,0 +1,139 @@
+use std::sync::Arc;
+
+use bioscope_core::{Annotation, Error, Id, Intention, NOTHING, Percepts, Purpose, Result, Vec3};
+use bioscope_dynamics::Influence;
+use bioscope_minds::Mind;
+use bioscope_motion::Body;
+use bioscope_senses::{Sense, Surroundings};
+use bioscope_world::{Moment, View};
+use serde::{Deserialize, Serialize};
+
+use super::Look;
+
+const DECISION: Purpose = Purpose::new("mind of an animal");
+
+/// Behaviors whose beginning is worth an event, and the event's kind.
+const NOTEWORTHY: [(&str, &str); 3] =
+    [("dash", "dashed"), ("turn home", "turned home"), ("inspect", "inspected")];
+/// Seconds in which the same is not reported twice of one animal.
+const QUIET: f64 = 3.0;
+
+/// The parts of one animal.
+pub struct Animal {
+    /// What it notices with, asked in this order.
+    pub senses: Vec<Box<dyn Sense>>,
+    /// What it decides with.
+    pub mind: Box<dyn Mind>,
+    /// What it moves with.
+    pub body: Box<dyn Body>,
+    /// What it looks like.
+    pub look: Arc<Look>,
+    /// Whether a part of it may fail for reasons of its own (code of the user's).
+    pub may_fail: bool,
+}
+
+/// One animal in a world.
+pub(super) struct Individual {
+    pub id: Id,
+    pub parts: Animal,
+    pub record: Record,
+}
+
+/// What is known of an individual beside its parts.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+pub(super) struct Record {
+    /// Place it calls home, metres.
+    pub home: Vec3,
+    /// Linear color that multiplies its look's.
+    pub tint: [f32; 3],
+    /// What it noticed last.
+    pub percepts: Percepts,
+    /// What it wants.
+    pub intention: Intention,
+    /// What its mind shows, in its own frame.
+    pub annotations: Vec<Annotation>,
+    /// When each of [`NOTEWORTHY`] was reported last, world time in seconds.
+    reported: [Option<f64>; NOTEWORTHY.len()],
+    /// Which of them is reported in this tick.
+    news: Option<usize>,
+}
+
+impl Individual {
+    pub fn sense(&mut self, view: &View, influence: Influence) -> Result<()> {
+        let environment = view.environment;
+        let placement = self.parts.body.placement();
+        let medium = environment.medium();
+        let surroundings = Surroundings {
+            id: self.id,
+            position: placement.position,
+            attitude: placement.rotation(),
+            velocity: self.parts.body.velocity(),
+            body_length: self.parts.body.length(),
+            home: self.record.home,
+            scene: view.scene,
+            sounds: view.sounds,
+            influence,
+            obstacles: &environment.obstacles,
+            terrain: environment.terrain.as_deref(),
+            medium: &medium,
+            sun: environment.sun(),
+            temperature: environment.parameters.temperature,
+            time: view.moment.time,
+            dt: view.moment.dt,
+        };
+        let mut percepts = surroundings.own_state();
+        for sense in &mut self.parts.senses {
+            sense.sense(&surroundings, &mut percepts)?;
+        }
+        self.record.percepts = percepts;
+        Ok(())
+    }
+
+    pub fn decide(&mut self, moment: &Moment) -> Result<()> {
+        let record = &mut self.record;
+        let mut random = moment.random(self.id, DECISION);
+        record.annotations.clear();
+        let mind = &mut self.parts.mind;
+        let intention = mind.decide(&record.percepts, &mut random, &mut record.annotations)?;
+        let changed = intention.behavior != record.intention.behavior;
+        record.intention = intention;
+        record.news = if changed { record.report(moment.time) } else { None };
+        Ok(())
+    }
+
+    pub fn advance(&mut self, view: &View, influence: &Influence) -> Result<()> {
+        let body = &mut self.parts.body;
+        body.advance(&self.record.intention, influence, view.moment.dt)?;
+        let reach = 0.25 * body.length();
+        let position = body.placement().position;
+        body.shift(super::contact::way_out(position, reach, view.environment));
+        let placement = body.placement();
+        let sound = placement.position.is_finite()
+            && placement.rotation().is_finite()
+            && body.velocity().is_finite();
+        if sound {
+            return Ok(());
+        }
+        let name = format!("placement of animal {} ({})", self.id, body.kind());
+        Err(Error::value(name, format!("{placement:?}"), "finite numbers"))
+    }
+}
+
+impl Record {
+    /// Which noteworthy behavior has just begun, unless it was reported a moment ago.
+    fn report(&mut self, time: f64) -> Option<usize> {
+        let behavior = &self.intention.behavior;
+        let index = NOTEWORTHY.iter().position(|(word, _)| word == behavior)?;
+        if self.reported[index].is_some_and(|last| time - last < QUIET) {
+            return None;
+        }
+        self.reported[index] = Some(time);
+        Some(index)
+    }
+
+    /// Kind of this tick's event and whom it concerns, if there is one.
+    pub fn event(&self) -> Option<(&'static str, Option<Id>)> {
+        let (_, kind) = NOTEWORTHY.get(self.news?)?;
+        Some((kind, self.intention.target.filter(|&target| target != NOTHING)))
+    }
+}

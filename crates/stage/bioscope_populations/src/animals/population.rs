@@ -1,0 +1,282 @@
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use bioscope_core::{Error, Event, Id, NOTHING, Parameters, Purpose, Random, Result, Vec3, math};
+use bioscope_dynamics::Influence;
+use bioscope_geometry::{Batch, Transform};
+use bioscope_world::{Environment, Growth, Inspection, Population, Publication, View};
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+
+use super::contact::way_out;
+use super::individual::{Individual, Record};
+use super::{Animal, Kinds};
+use crate::names::free_name;
+
+const BIRTH: Purpose = Purpose::new("birth of an animal");
+/// Most animals of one population: each has a mind of its own.
+const LARGEST_COUNT: usize = 100_000;
+/// Fewest animals worth sharing among threads.
+const WORTH_THREADS: usize = 4;
+
+/// A ball in which animals begin.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Place {
+    /// Its middle, metres.
+    pub center: Vec3,
+    /// Its radius, metres.
+    pub radius: f32,
+}
+
+/// Where animals live and how much they differ.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct AnimalsOptions {
+    /// Where they begin; none leaves each where its body was put.
+    pub place: Option<Place>,
+    /// The place they call home, metres; none for the middle of `place`, or where each began.
+    pub home: Option<Vec3>,
+    /// By how much of its size each differs from its kin, 0 to 0.9; a share of it goes for color.
+    pub variation: f32,
+}
+
+impl Default for AnimalsOptions {
+    fn default() -> Self {
+        Self { place: None, home: None, variation: 0.1 }
+    }
+}
+
+/// A population of animals with senses, minds and bodies; see the [module](super).
+pub struct Animals {
+    pub(super) options: AnimalsOptions,
+    pub(super) individuals: Vec<Individual>,
+    pub(super) kinds: Arc<Kinds>,
+}
+
+impl Animals {
+    /// A population of these animals. `kinds` must know all kinds of their parts, for saving.
+    pub fn new(animals: Vec<Animal>, options: AnimalsOptions, kinds: Arc<Kinds>) -> Result<Self> {
+        if animals.len() > LARGEST_COUNT {
+            return Err(Error::value("count", animals.len(), format!("up to {LARGEST_COUNT}")));
+        }
+        check_options(&options)?;
+        animals.iter().try_for_each(check)?;
+        let individuals = animals
+            .into_iter()
+            .map(|parts| Individual { id: NOTHING, parts, record: Record::default() })
+            .collect();
+        Ok(Self { options, individuals, kinds })
+    }
+
+    /// Runs `work` on every individual: in parallel, or in order where a part is the user's own. Of
+    /// several errors the first individual's is returned.
+    fn each(
+        &mut self,
+        work: impl Fn(&mut Individual, usize) -> Result<()> + Send + Sync,
+    ) -> Result<()> {
+        let in_order = self.individuals.len() < WORTH_THREADS || self.may_fail();
+        let mut individuals = self.individuals.iter_mut().enumerate();
+        if in_order {
+            return individuals.try_for_each(|(index, one)| work(one, index));
+        }
+        let all = self.individuals.par_iter_mut().enumerate();
+        let outcomes: Vec<Result<()>> = all.map(|(index, one)| work(one, index)).collect();
+        outcomes.into_iter().collect()
+    }
+
+    /// What acts on each of them.
+    fn influences(&self, view: &View) -> Result<Vec<Influence>> {
+        let bodies = self.individuals.iter().map(|one| one.parts.body.placement().position);
+        view.environment.influence(&bodies.collect::<Vec<_>>(), view.moment.time)
+    }
+
+    /// The batch of all animals that look like the `first`.
+    fn batch(&self, name: String, first: &Individual) -> Batch {
+        let look = &first.parts.look;
+        let mut batch =
+            Batch::new(name, look.species.clone(), look.mesh.clone(), look.material.clone());
+        batch.alive = true;
+        let alike = self.individuals.iter().filter(|one| one.parts.look.equals(look));
+        let joints = look.joint_count();
+        for Individual { id, parts, record } in alike {
+            batch.ids.push(*id);
+            batch.transforms.push(parts.body.placement());
+            batch.velocities.push(parts.body.velocity());
+            batch.tints.push(record.tint);
+            if joints > 0 {
+                let start = batch.poses.len();
+                batch.poses.resize(start + joints, Transform::IDENTITY);
+                parts.body.pose(&mut batch.poses[start..]);
+            }
+        }
+        batch
+    }
+}
+
+fn check_options(options: &AnimalsOptions) -> Result<()> {
+    if let Some(Place { center, radius }) = options.place
+        && !(center.is_finite() && radius.is_finite() && radius >= 0.0)
+    {
+        let found = format!("{radius} m round {center}");
+        return Err(Error::value("place", found, "a ball with a finite center and radius"));
+    }
+    if let Some(home) = options.home.filter(|home| !home.is_finite()) {
+        return Err(Error::value("home", home, "a finite point in metres"));
+    }
+    if !(0.0..=0.9).contains(&options.variation) {
+        return Err(Error::value("variation", options.variation, "0 to 0.9"));
+    }
+    Ok(())
+}
+
+/// Refuses an animal whose body does not fit its look.
+pub(super) fn check(animal: &Animal) -> Result<()> {
+    let (joints, posed) = (animal.look.joint_count(), animal.body.joint_count());
+    if joints == posed {
+        return Ok(());
+    }
+    let name = format!("joints of body '{}'", animal.body.kind());
+    let expected = format!("{joints}, as many as the mesh of '{}' has", animal.look.species);
+    Err(Error::value(name, posed, expected))
+}
+
+/// A random place in a ball with room for `radius` metres on all sides, if one is found.
+fn room(place: Place, radius: f32, environment: &Environment, random: &mut Random) -> Vec3 {
+    const DRAWS: usize = 32;
+    let mut draw = || place.center + random.in_ball() * place.radius;
+    let free = |point: &Vec3| way_out(*point, radius, environment) == Vec3::ZERO;
+    let drawn = (0..DRAWS).map(|_| draw()).find(free);
+    drawn.unwrap_or_else(|| place.center + way_out(place.center, radius, environment))
+}
+
+/// A color near white: brightness and hue differ a little.
+pub(crate) fn tint(variation: f32, random: &mut Random) -> [f32; 3] {
+    let bright = 1.0 + random.range(-variation, variation);
+    let warm = 0.5 * random.range(-variation, variation);
+    [bright * (1.0 + warm), bright, bright * (1.0 - warm)]
+}
+
+impl Population for Animals {
+    fn kind(&self) -> &str {
+        "animals"
+    }
+
+    fn settle(&mut self, growth: &mut Growth) -> Result<()> {
+        let ids = growth.identities(self.individuals.len())?;
+        let AnimalsOptions { place, home, variation } = self.options;
+        for (individual, id) in self.individuals.iter_mut().zip(ids) {
+            let mut random = growth.moment.random(id, BIRTH);
+            let body = &mut individual.parts.body;
+            body.vary(variation, &mut random);
+            if let Some(place) = place {
+                let position = room(place, body.length(), growth.environment, &mut random);
+                let bearing = random.range(0.0, math::TAU);
+                body.put(position, Vec3::new(math::sin(bearing), 0.0, math::cos(bearing)));
+            }
+            let began = body.placement().position;
+            individual.id = id;
+            individual.record.home = home.or(place.map(|place| place.center)).unwrap_or(began);
+            individual.record.tint = tint(variation, &mut random);
+        }
+        Ok(())
+    }
+
+    fn sense(&mut self, view: &View) -> Result<()> {
+        let influences = self.influences(view)?;
+        self.each(|individual, index| individual.sense(view, influences[index]))
+    }
+
+    fn decide(&mut self, view: &View) -> Result<()> {
+        self.each(|individual, _| individual.decide(&view.moment))
+    }
+
+    fn advance(&mut self, view: &View) -> Result<()> {
+        let influences = self.influences(view)?;
+        self.each(|individual, index| individual.advance(view, &influences[index]))
+    }
+
+    fn grow(&mut self, _growth: &mut Growth) -> Result<()> {
+        Ok(())
+    }
+
+    fn publish(&self, publication: &mut Publication) -> Result<()> {
+        let Publication { moment, scene, sounds, events } = publication;
+        for (index, individual) in self.individuals.iter().enumerate() {
+            let look = &individual.parts.look;
+            let earlier = &self.individuals[..index];
+            if !earlier.iter().any(|one| one.parts.look.equals(look)) {
+                let name = free_name(scene, &look.species);
+                scene.batches.push(self.batch(name, individual));
+            }
+            let body = &individual.parts.body;
+            let placement = body.placement();
+            let mut annotations = individual.record.annotations.clone();
+            let (position, attitude) = (placement.position, placement.rotation());
+            bioscope_minds::place(&mut annotations, individual.id, position, attitude);
+            scene.annotations.append(&mut annotations);
+            let first = sounds.len();
+            body.sounds(sounds);
+            for sound in &mut sounds[first..] {
+                (sound.source, sound.time) = (individual.id, moment.time);
+            }
+            if let Some((kind, object)) = individual.record.event() {
+                events.push(Event {
+                    tick: moment.tick,
+                    time: moment.time,
+                    kind: Cow::Borrowed(kind),
+                    subject: individual.id,
+                    object,
+                    data: BTreeMap::new(),
+                });
+            }
+        }
+        Ok(())
+    }
+
+    fn count(&self) -> usize {
+        self.individuals.len()
+    }
+
+    fn save(&self) -> Result<Vec<u8>> {
+        self.to_saved()
+    }
+
+    fn restore(&mut self, bytes: &[u8]) -> Result<()> {
+        self.restore_from(bytes)
+    }
+
+    fn parameters(&self) -> Option<&dyn Parameters> {
+        Some(self)
+    }
+
+    fn parameters_mut(&mut self) -> Option<&mut dyn Parameters> {
+        Some(self)
+    }
+
+    fn inspect(&self, id: Id) -> Option<Inspection> {
+        let individual = self.individuals.iter().find(|one| one.id == id)?;
+        Some(super::inspection::inspect(individual))
+    }
+
+    fn statistics(&self) -> BTreeMap<String, f64> {
+        let count = self.individuals.len();
+        let mean = |value: fn(&Individual) -> f32| {
+            let sum: f64 = self.individuals.iter().map(|one| f64::from(value(one))).sum();
+            sum / count.max(1) as f64
+        };
+        BTreeMap::from([
+            ("count".into(), count as f64),
+            ("mean_speed_m_per_s".into(), mean(|one| one.parts.body.velocity().length())),
+            ("energy_spent_j_per_kg".into(), mean(|one| one.parts.body.energy_spent())),
+        ])
+    }
+
+    fn may_fail(&self) -> bool {
+        self.individuals.iter().any(|one| one.parts.may_fail)
+    }
+
+    fn default_name(&self) -> String {
+        let first = self.individuals.first();
+        first.map_or_else(|| self.kind().to_owned(), |one| one.parts.look.species.to_string())
+    }
+}
