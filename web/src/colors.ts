@@ -1,0 +1,35 @@
+/** Colors that people with any kind of color vision can tell apart (after Okabe and Ito), on a dark ground. */
+const PALETTE = ["#56b4e9", "#e69f00", "#2bb58a", "#f0e442", "#e5703a", "#cc79a7", "#5d8df0", "#c9c9c9"];
+
+/** Words that keep one color everywhere and always; others get theirs by their letters. */
+const KNOWN: Record<string, number> = {
+  school: 0,
+  align: 0,
+  cohesion: 2,
+  wander: 2,
+  roam: 2,
+  rest: 7,
+  feed: 3,
+  eat: 3,
+  hunt: 4,
+  chase: 4,
+  flee: 4,
+  avoid: 1,
+  separation: 1,
+  mate: 5,
+  home: 6,
+};
+
+/** The color of a behavior, species or kind of event: the same in chart, label and overlay. */
+export function colorOf(word: string): string {
+  const known = KNOWN[word.toLowerCase()];
+  if (known !== undefined) return PALETTE[known];
+  let sum = 7;
+  for (const letter of word) sum = (sum * 31 + letter.charCodeAt(0)) % 9973;
+  return PALETTE[sum % PALETTE.length];
+}
+
+/** Color number so many of a list of things that have no names. */
+export function colorAt(index: number): string {
+  return PALETTE[index % PALETTE.length];
+}

@@ -1,0 +1,76 @@
+import type { Session } from "../messages/session";
+import type { Frame } from "../messages/types";
+import type { Batch } from "../scene/batch";
+import type { Stage } from "../scene/stage";
+
+/** Size of the retina that is asked for. */
+const RETINA: [number, number] = [128, 128];
+
+/** Which individual is selected. */
+export class Selection {
+  id = 0;
+  /** Called when another individual is selected. */
+  changed: (id: number, species: string) => void = () => {};
+  /** Called when the selected individual is no longer in the world. */
+  lost: (species: string) => void = () => {};
+  private species = "";
+  private frame: Frame | null = null;
+
+  constructor(
+    private readonly session: Session,
+    private readonly stage: Stage,
+  ) {
+    session.on("frame", (frame) => {
+      this.frame = frame;
+    });
+    session.on("hello", () => {
+      if (this.id !== 0) this.tell();
+    });
+  }
+
+  /** Selects an individual; 0 for none. */
+  select(id: number): void {
+    if (id === this.id) return;
+    this.id = id;
+    this.species = this.stage.find(id)?.batch.layout.species ?? "";
+    this.tell();
+    this.changed(id, this.species);
+  }
+
+  /** Selects the next animal of the same species, then of the next. */
+  next(step: number): void {
+    const all = this.animals().flatMap((batch) => [...batch.layout.ids]);
+    if (all.length === 0) return;
+    const index = all.indexOf(this.id);
+    this.select(all[(index + step + all.length) % all.length]);
+  }
+
+  nextSpecies(): void {
+    const batches = this.animals();
+    const species = [...new Set(batches.map((batch) => batch.layout.species))];
+    if (species.length === 0) return;
+    const wanted = species[(species.indexOf(this.species) + 1) % species.length];
+    this.select(batches.find((batch) => batch.layout.species === wanted)!.layout.ids[0]);
+  }
+
+  /** After a change of layout: is the selected one still there? */
+  check(): void {
+    if (this.id === 0 || this.stage.find(this.id)) return;
+    const { species } = this;
+    this.select(0);
+    this.lost(species);
+  }
+
+  /** Batches of what lives and moves about, else of what lives. */
+  private animals(): Batch[] {
+    const alive = [...this.stage.batches.values()].filter(
+      (batch) => batch.layout.alive && batch.layout.count > 0,
+    );
+    const moving = alive.filter((batch) => this.frame?.moving[batch.layout.name]?.positions);
+    return moving.length > 0 ? moving : alive;
+  }
+
+  private tell(): void {
+    this.session.send({ do: "select", id: this.id, retina: RETINA });
+  }
+}

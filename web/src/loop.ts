@@ -1,0 +1,189 @@
+import type { Frame, Layout } from "./messages/types";
+import { type Moment, PlayoutQueue } from "./playout/queue";
+import { QUALITIES, QualityGovernor } from "./scene/quality";
+import type { Viewer } from "./viewer";
+
+/** Milliseconds between refreshes of charts and lists. */
+const PANEL_PAUSE = 250;
+/** Milliseconds between connections anew because an asset was missing. */
+const RECONNECT_PAUSE = 4000;
+
+/** Takes frames from the world and makes pictures of them, as often as the screen wants one. */
+export class FrameLoop {
+  /** The frame on the screen. */
+  frame: Frame | null = null;
+  /** Pictures drawn. */
+  pictures = 0;
+  readonly governor = new QualityGovernor();
+  private readonly queue = new PlayoutQueue();
+  private readonly layouts = new Map<number, Layout>();
+  private readonly observer: ResizeObserver;
+  private request = 0;
+  private lastTime = 0;
+  private lastPanels = 0;
+  private lastReconnect = 0;
+  private unseen: number | null = null;
+  private size = { width: 1, height: 1 };
+
+  constructor(private readonly viewer: Viewer) {
+    const { session } = viewer;
+    this.observer = new ResizeObserver(() => this.resize());
+    session.on("hello", () => this.begin());
+    session.on("layout", (layout) => {
+      this.layouts.set(layout.revision, layout);
+      viewer.stage.assets.settle();
+    });
+    session.on("frame", (frame) => this.take(frame));
+    for (const kind of ["mesh", "material", "texture"] as const) {
+      session.on(kind, (message) => viewer.stage.takeAsset(message));
+    }
+  }
+
+  start(): void {
+    this.observer.observe(this.viewer.root);
+    this.resize();
+    this.request = requestAnimationFrame((now) => this.draw(now));
+  }
+
+  stop(): void {
+    cancelAnimationFrame(this.request);
+    this.observer.disconnect();
+  }
+
+  /** Draws a frame exactly as it is, for a video. */
+  drawExactly(frame: Frame, seconds: number): void {
+    const cut = !this.frame || frame.tick < this.frame.tick;
+    this.show({ frame, blend: 1, fresh: true, cut }, seconds);
+  }
+
+  /** Draws the picture on the screen again, so that it can be read from the canvas. */
+  drawAgain(): void {
+    this.viewer.stage.render(this.viewer.cameras.camera);
+  }
+
+  private begin(): void {
+    this.queue.clear();
+    this.layouts.clear();
+    this.viewer.stage.clear();
+    this.frame = null;
+  }
+
+  private take(frame: Frame): void {
+    this.unseen = frame.tick;
+    if (this.viewer.keeping.video) {
+      this.acknowledge();
+      this.viewer.keeping.video.take(frame);
+    } else this.queue.push(frame, performance.now());
+  }
+
+  private draw(now: number): void {
+    this.request = requestAnimationFrame((next) => this.draw(next));
+    this.acknowledge();
+    const passed = this.lastTime === 0 ? 16 : now - this.lastTime;
+    this.lastTime = now;
+    if (this.viewer.keeping.video) return;
+    const moment = this.queue.at(now);
+    if (!moment) return;
+    this.show(moment, Math.min(0.1, passed / 1000));
+    if (document.visibilityState === "visible" && this.governor.note(passed)) this.lowerQuality();
+    if (now - this.lastPanels > PANEL_PAUSE) {
+      this.lastPanels = now;
+      this.viewer.refreshPanels();
+    }
+  }
+
+  /** Tells the world that its last frame has arrived where pictures are made. */
+  private acknowledge(): void {
+    if (this.unseen === null) return;
+    this.viewer.session.send({ do: "seen", tick: this.unseen });
+    this.unseen = null;
+  }
+
+  private show(moment: Moment, dt: number): void {
+    const { stage, cameras, selection, controls } = this.viewer;
+    if (moment.fresh && !this.advance(moment)) return;
+    if (!stage.layout) return;
+    const time = moment.frame.time;
+    const scenery = { stage, time, selected: selection.id, dt };
+    cameras.update(scenery, this.size.width / this.size.height);
+    stage.hidden = cameras.name === "eye" ? selection.id : 0;
+    stage.prepare(cameras.camera, moment);
+    stage.render(cameras.camera);
+    this.drawMarks(moment.frame);
+    controls.show(moment.frame);
+    this.pictures += 1;
+  }
+
+  /** Takes a new frame to the stage, and its layout before it; says whether it can be drawn. */
+  private advance({ frame, cut }: Moment): boolean {
+    const { stage, selection, cameras } = this.viewer;
+    if (frame.layout !== stage.layout?.revision) {
+      const layout = this.layouts.get(frame.layout);
+      if (!layout) return false;
+      for (const revision of this.layouts.keys()) if (revision < frame.layout) this.layouts.delete(revision);
+      const first = stage.layout === null;
+      try {
+        stage.setLayout(layout, [...this.layouts.values()]);
+      } catch (error) {
+        this.missing(error as Error);
+        return false;
+      }
+      selection.check();
+      if (first && cameras.name === "free" && !this.viewer.keeping.restoresCamera)
+        cameras.frame(layout.bounds);
+    }
+    stage.setFrame(frame, cut);
+    this.frame = frame;
+    return true;
+  }
+
+  /** Something that a layout needs never came, or was forgotten: a new connection brings everything. */
+  private missing(error: Error): void {
+    const now = performance.now();
+    if (now - this.lastReconnect < RECONNECT_PAUSE) return;
+    this.lastReconnect = now;
+    this.viewer.notices.tell({
+      level: "warning",
+      text: `Part of the scene is missing (${error.message}).`,
+      remedy: "Connecting anew.",
+    });
+    this.viewer.session.transport.reconnect();
+  }
+
+  private drawMarks(frame: Frame): void {
+    const { stage, cameras, selection, marks, inspector, annotations } = this.viewer;
+    const found = cameras.name === "eye" ? null : stage.find(selection.id);
+    let ring = null;
+    if (found) {
+      const place = found.batch.placeOf(found.slot);
+      const radius = found.batch.asset.radius * place[3];
+      ring = {
+        place: [place[0], place[1], place[2]] as [number, number, number],
+        radius,
+        behavior: inspector.latest?.behavior ?? null,
+      };
+    }
+    marks.draw(cameras.camera, ring, annotations ? frame.annotations : undefined);
+  }
+
+  private resize(): void {
+    const { clientWidth: width, clientHeight: height } = this.viewer.root;
+    if (width === 0 || height === 0) return;
+    this.size = { width, height };
+    this.viewer.stage.resize(width, height, window.devicePixelRatio, QUALITIES[this.governor.level]);
+    this.viewer.marks.resize(width, height);
+  }
+
+  private lowerQuality(): void {
+    this.resize();
+    const { name } = QUALITIES[this.governor.level];
+    const last = this.governor.level === QUALITIES.length - 1;
+    if (last) {
+      this.viewer.notices.stand("slow", {
+        level: "warning",
+        text: "This machine draws slowly, so the picture is coarse.",
+        remedy: "A smaller window helps, or hardware acceleration switched on in the browser.",
+      });
+    } else this.viewer.notices.tell({ level: "info", text: `Drawing at lower cost (${name}) to keep up.` });
+  }
+}

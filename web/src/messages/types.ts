@@ -1,0 +1,269 @@
+/** What the world tells the page; see docs/reference/stream.md. Metres, seconds, radians, linear color. */
+
+export type Color = [number, number, number];
+export type Point = [number, number, number];
+
+/** Least and greatest corner: x, y, z, X, Y, Z. */
+export type Box = [number, number, number, number, number, number];
+
+/** Version of the stream that this page speaks. */
+export const STREAM_VERSION = 1;
+
+export interface Rig {
+  name: string;
+  kind: "fixed" | "orbit" | "follow";
+  /** Vertical angle of view. */
+  field_of_view: number;
+  position?: Point;
+  target?: Point;
+  radius?: number;
+  height?: number;
+  /** Seconds per turn. */
+  period?: number;
+  species?: string;
+  index?: number;
+  /** Body lengths, in the animal's frame. */
+  offset?: Point;
+}
+
+export interface Hello {
+  type: "hello";
+  version: number | string;
+  world: string;
+  title: string;
+  seed: number;
+  /** Seconds per tick. */
+  dt: number;
+  cameras: Rig[];
+  page: string[];
+}
+
+export interface MeshMessage {
+  type: "mesh";
+  key: number;
+  positions: Float32Array;
+  normals: Float32Array;
+  uvs?: Float32Array;
+  colors?: Float32Array;
+  triangles: Uint32Array;
+  parents?: Int8Array;
+  /** Eight numbers per joint: x, y, z, scale, qx, qy, qz, qw. */
+  rest?: Float32Array;
+  joint_indices?: Uint8Array;
+  joint_weights?: Float32Array;
+  /** Coarser meshes: to use below this projected diameter in pixels. */
+  levels: [number, number][];
+}
+
+export interface TextureMessage {
+  type: "texture";
+  key: number;
+  width: number;
+  height: number;
+  png: Uint8Array;
+}
+
+export interface MaterialMessage {
+  type: "material";
+  key: number;
+  name: string;
+  color: Color;
+  texture: number | null;
+  cutout: boolean;
+  roughness: number;
+  specular: number;
+  translucency: number;
+  two_sided: boolean;
+}
+
+export interface BatchLayout {
+  name: string;
+  species: string;
+  mesh: number;
+  material: number;
+  alive: boolean;
+  count: number;
+  ids: Uint32Array;
+  /** Eight numbers per instance: x, y, z, scale, qx, qy, qz, qw. */
+  transforms: Float32Array;
+  tints?: Float32Array;
+  /** Joint poses per instance; 0 for a rigid batch. */
+  joints: number;
+}
+
+export interface PointsLayout {
+  name: string;
+  species: string;
+  count: number;
+  color: Color;
+  opacity: number;
+  glassy: boolean;
+  ids: Uint32Array;
+  radii: Float32Array;
+}
+
+export interface Sun {
+  direction: Point;
+  color: Color;
+}
+
+export interface Sky {
+  zenith: Color;
+  horizon: Color;
+  nadir: Color;
+}
+
+export interface Medium {
+  /** Height of the water surface; null for air throughout. */
+  surface: number | null;
+  absorption: Color;
+  scattering: Color;
+  glow: Color;
+  caustics: number;
+  caustic_scale: number;
+  shafts: number;
+}
+
+export interface Layout {
+  type: "layout";
+  revision: number;
+  batches: BatchLayout[];
+  points: PointsLayout[];
+  sun: Sun;
+  sky: Sky;
+  medium: Medium;
+  bounds: Box;
+}
+
+export interface Moving {
+  box?: Box;
+  positions?: Uint16Array;
+  rotations?: Int16Array;
+  extent?: number;
+  poses?: Int16Array;
+}
+
+export interface Drifting {
+  box: Box;
+  positions: Uint16Array;
+}
+
+export interface Annotation {
+  subject: number;
+  role: string;
+  line?: Box;
+  center?: Point;
+  radius?: number;
+  position?: Point;
+  text?: string;
+}
+
+export interface Frame {
+  type: "frame";
+  layout: number;
+  tick: number;
+  time: number;
+  running: boolean;
+  speed: number | null;
+  rate: number;
+  moving: Record<string, Moving>;
+  drifting: Record<string, Drifting>;
+  annotations?: Annotation[];
+}
+
+export interface Parameter {
+  name: string;
+  unit: string;
+  minimum: number;
+  maximum: number;
+  default: number;
+  meaning: string;
+  source: string;
+  value: number;
+}
+
+export interface Owner {
+  name: string;
+  parameters: Parameter[];
+}
+
+export interface ParametersMessage {
+  type: "parameters";
+  owners: Owner[];
+}
+
+export type Value = boolean | number | string | number[];
+
+export interface WorldEvent {
+  tick: number;
+  time: number;
+  kind: string;
+  subject: number;
+  object: number | null;
+  data: Record<string, Value>;
+}
+
+export interface EventsMessage {
+  type: "events";
+  events: WorldEvent[];
+}
+
+export interface Statistics {
+  type: "statistics";
+  tick: number;
+  time: number;
+  values: Record<string, number>;
+}
+
+export interface Timeline {
+  type: "timeline";
+  first: number;
+  last: number;
+}
+
+export interface Retina {
+  width: number;
+  height: number;
+  color: Uint8Array;
+  depth: Float32Array;
+  identity: Uint32Array;
+  field_of_view: number;
+}
+
+export interface Inspection {
+  type: "inspection";
+  id: number;
+  species: string;
+  population: string;
+  behavior: string | null;
+  values: Record<string, Value>;
+  percepts: Record<string, unknown>;
+  retina: Retina | null;
+}
+
+export interface Snapshot {
+  type: "snapshot";
+  name: string;
+  bytes: Uint8Array;
+}
+
+export interface Notice {
+  type: "notice";
+  level: "info" | "warning" | "error";
+  text: string;
+}
+
+export type Message =
+  | Hello
+  | MeshMessage
+  | TextureMessage
+  | MaterialMessage
+  | Layout
+  | Frame
+  | ParametersMessage
+  | EventsMessage
+  | Statistics
+  | Timeline
+  | Inspection
+  | Snapshot
+  | Notice;

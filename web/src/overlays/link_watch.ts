@@ -1,0 +1,87 @@
+import type { LinkState } from "../messages/transport";
+import type { Viewer } from "../viewer";
+
+/** Seconds without a frame from a running world after which we say so. */
+const SILENCE = 5;
+/** Unreadable messages after which we say so. */
+const UNREADABLE = 1;
+
+/** Says what is wrong with the connection, the world or the graphics, and what helps. */
+export class LinkWatch {
+  private readonly timer: number;
+  private lastFrame = performance.now();
+  private running = false;
+  private unreadable = 0;
+
+  constructor(private readonly viewer: Viewer) {
+    const { session, notices } = viewer;
+    session.linked = (state) => this.linked(state);
+    session.failed = (error) => this.failed(error);
+    session.on("hello", () => {
+      notices.stand("link", null);
+      notices.stand("world", null);
+      this.lastFrame = performance.now();
+    });
+    session.on("frame", (frame) => {
+      this.lastFrame = performance.now();
+      this.running = frame.running;
+      notices.stand("silence", null);
+    });
+    session.on("notice", ({ level, text }) => {
+      if (level === "error") notices.stand("world", { level, text });
+      else notices.tell({ level, text });
+    });
+    this.timer = window.setInterval(() => this.look(), 1000);
+  }
+
+  stop(): void {
+    window.clearInterval(this.timer);
+  }
+
+  /** The graphics processor has dropped everything it held. */
+  graphicsLost(): void {
+    this.viewer.notices.stand("graphics", {
+      level: "error",
+      text: "The graphics driver has dropped the picture.",
+      remedy: "Reload the page.",
+      button: { label: "reload", run: () => location.reload() },
+    });
+  }
+
+  private linked(state: LinkState): void {
+    const { notices, session } = this.viewer;
+    if (state.state === "open") notices.stand("link", null);
+    if (state.state === "lost") {
+      const again = `Trying again in ${state.retry < 1 ? "a moment" : `${Math.round(state.retry)} s`}.`;
+      const button = { label: "now", run: () => session.transport.reconnect() };
+      const remedy = `${again} If it stays away, start bioscope live again.`;
+      notices.stand("link", { level: "warning", text: state.reason, remedy, button });
+    }
+    if (state.state === "refused") {
+      const button = { label: "reload", run: () => location.reload() };
+      notices.stand("link", { level: "error", text: state.reason, remedy: state.remedy, button });
+    }
+  }
+
+  private failed(error: Error): void {
+    if (++this.unreadable !== UNREADABLE) return;
+    this.viewer.notices.tell({
+      level: "error",
+      text: `A message from the world cannot be read (${error.message}).`,
+      remedy: "Reload the page; if it happens again, page and world are of different versions.",
+    });
+  }
+
+  private look(): void {
+    const { session, notices, keeping } = this.viewer;
+    const silent = (performance.now() - this.lastFrame) / 1000;
+    if (document.visibilityState !== "visible") this.lastFrame = performance.now();
+    if (!session.connected || !this.running || keeping.video || silent < SILENCE) return;
+    notices.stand("silence", {
+      level: "warning",
+      text: `The world has sent nothing for ${Math.round(silent)} s.`,
+      remedy: "It may be busy; the window in which it runs says more.",
+      button: { label: "connect anew", run: () => session.transport.reconnect() },
+    });
+  }
+}

@@ -1,0 +1,105 @@
+import type { Viewer } from "./viewer";
+
+/** An individual as it stands on the screen. */
+export interface OnScreen {
+  id: number;
+  species: string;
+  /** Pixels from the upper left of the picture; null behind the camera. */
+  screen: [number, number] | null;
+  /** Metres. */
+  position: [number, number, number];
+}
+
+/** Read-only view of the page for tests in a browser: `window.bioscope`. */
+export interface Hooks {
+  readonly connected: boolean;
+  readonly tick: number;
+  readonly time: number;
+  readonly running: boolean;
+  readonly speed: number | null;
+  /** Identity of the selected individual, 0 for none. */
+  readonly selected: number;
+  /** Pictures drawn. */
+  readonly frames: number;
+  readonly camera: { name: string; names: string[]; position: number[] };
+  readonly quality: number;
+  readonly behavior: string | null;
+  readonly recorded: { frames: number; bytes: number };
+  readonly held: { meshes: number; materials: number; textures: number; batches: number };
+  readonly notices: string[];
+  /** All that is alive. */
+  instances(): OnScreen[];
+  /** Pixels of the retina that is shown, four bytes each; null if none is. */
+  retinaPixels(): number[] | null;
+}
+
+declare global {
+  interface Window {
+    bioscope?: Hooks;
+  }
+}
+
+/** Offers the hooks of a viewer; of several in one page, the last. */
+export function exposeForTests(viewer: Viewer): void {
+  const { session, loop, cameras, stage, selection, inspector, recorder } = viewer;
+  window.bioscope = {
+    get connected() {
+      return session.connected;
+    },
+    get tick() {
+      return loop.frame?.tick ?? -1;
+    },
+    get time() {
+      return loop.frame?.time ?? 0;
+    },
+    get running() {
+      return loop.frame?.running ?? false;
+    },
+    get speed() {
+      return loop.frame?.speed ?? null;
+    },
+    get selected() {
+      return selection.id;
+    },
+    get frames() {
+      return loop.pictures;
+    },
+    get camera() {
+      return { name: cameras.name, names: cameras.names, position: cameras.view.position.toArray() };
+    },
+    get quality() {
+      return loop.governor.level;
+    },
+    get behavior() {
+      return inspector.latest?.behavior ?? null;
+    },
+    get recorded() {
+      return { frames: recorder.length, bytes: recorder.size };
+    },
+    get held() {
+      return { ...stage.assets.count, batches: stage.batches.size };
+    },
+    get notices() {
+      return [...viewer.notices.element.children].map(
+        (card) => card.querySelector(".bio-text")?.textContent ?? "",
+      );
+    },
+    instances: () => instancesOf(viewer),
+    retinaPixels: () => {
+      const pixels = inspector.retina.pixels();
+      return pixels ? [...pixels] : null;
+    },
+  };
+}
+
+function instancesOf({ stage, marks, cameras }: Viewer): OnScreen[] {
+  return [...stage.batches.values()]
+    .filter((batch) => batch.layout.alive)
+    .flatMap((batch) =>
+      [...batch.layout.ids].map((id, slot) => {
+        const [x, y, z] = batch.placeOf(slot);
+        const screen = marks.project(cameras.camera, x, y, z);
+        return { id, species: batch.layout.species, screen, position: [x, y, z] as [number, number, number] };
+      }),
+    );
+}

@@ -1,0 +1,21 @@
+import { defineConfig } from "vite";
+import { viteSingleFile } from "vite-plugin-singlefile";
+
+/** Where the Python package looks for the built page. */
+const folder = "../python/bioscope/live/page";
+
+/** Server of `npm run dev`: a world that runs beside it lends its stream. */
+const server = { proxy: { "/stream": { target: "ws://127.0.0.1:8765", ws: true } } };
+
+/** `vite build` writes the page as one file, `vite build --mode widget` the notebook module beside it. */
+export default defineConfig(({ mode }) =>
+  mode === "widget"
+    ? {
+        build: {
+          outDir: folder,
+          emptyOutDir: false,
+          lib: { entry: "src/widget.ts", formats: ["es"], fileName: () => "widget.js" },
+        },
+      }
+    : { server, plugins: [viteSingleFile()], build: { outDir: folder, emptyOutDir: true } },
+);
