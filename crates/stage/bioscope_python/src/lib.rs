@@ -10,11 +10,13 @@ mod error;
 mod field;
 mod material;
 mod mesh;
+mod png;
 mod population;
 mod publication;
 mod rasterizer;
 mod rig;
 mod scene;
+mod skin;
 mod stream;
 mod values;
 mod view;
@@ -36,6 +38,8 @@ mod _engine {
     use super::material::Material;
     #[pymodule_export]
     use super::mesh::Mesh;
+    #[pymodule_export]
+    use super::png::encode_png;
     #[pymodule_export]
     use super::population::Resident;
     #[pymodule_export]

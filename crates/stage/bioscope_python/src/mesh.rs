@@ -7,6 +7,7 @@ use pyo3::prelude::*;
 
 use crate::arrays::{self, Array2, Floats};
 use crate::error::to_python;
+use crate::skin;
 
 /// See `bioscope.Mesh`.
 #[pyclass(frozen, module = "bioscope._engine")]
@@ -17,13 +18,20 @@ pub struct Mesh {
 #[pymethods]
 impl Mesh {
     #[new]
-    #[pyo3(signature = (positions, triangles, *, normals=None, uvs=None, colors=None))]
+    #[pyo3(signature = (
+        positions, triangles, *, normals=None, uvs=None, colors=None, joints=None,
+        joint_indices=None, joint_weights=None
+    ))]
+    #[allow(clippy::too_many_arguments)] // Keywords of a Python call.
     fn new(
         positions: PyReadonlyArray2<'_, f32>,
         triangles: PyReadonlyArray2<'_, u32>,
         normals: Option<PyReadonlyArray2<'_, f32>>,
         uvs: Option<PyReadonlyArray2<'_, f32>>,
         colors: Option<PyReadonlyArray2<'_, f32>>,
+        joints: Option<Vec<(String, Option<u8>, [f32; 8])>>,
+        joint_indices: Option<PyReadonlyArray2<'_, u8>>,
+        joint_weights: Option<PyReadonlyArray2<'_, f32>>,
     ) -> PyResult<Self> {
         let build = || {
             let positions = arrays::vectors("positions", &positions)?;
@@ -43,6 +51,13 @@ impl Mesh {
                 let rows = arrays::rows("colors", colors, 3)?;
                 mesh.colors = rows.chunks_exact(3).map(|row| [row[0], row[1], row[2]]).collect();
                 arrays::same_count("colors", mesh.colors.len(), mesh.positions.len())?;
+            }
+            if let Some(joints) = &joints {
+                let (Some(indices), Some(weights)) = (&joint_indices, &joint_weights) else {
+                    let expected = "joint_indices and joint_weights with them";
+                    return Err(bioscope_core::Error::value("joints", "alone", expected));
+                };
+                mesh.skin = Some(skin::skin(joints, indices, weights, mesh.positions.len())?);
             }
             Ok(mesh)
         };
