@@ -27,7 +27,7 @@ const REPORT_LIMIT: usize = 50;
 
 /// Something wrong at these bytes of the expanded text.
 #[derive(Clone, Debug)]
-pub(self) struct SyntaxError {
+struct SyntaxError {
     span: Range<usize>,
     message: String,
     help: Option<String>,

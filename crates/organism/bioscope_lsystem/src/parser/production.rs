@@ -78,7 +78,6 @@ impl Parser<'_> {
         })
     }
 
-    #[expect(clippy::type_complexity, reason = "left context, strict predecessor, right context")]
     fn predecessor(
         &mut self,
         cursor: &mut Cursor,

@@ -1,0 +1,140 @@
+use bioscope_core::Vec3;
+
+use crate::turtle::Frame;
+
+/// What the turtle has drawn: segments that form axes, polygons, surfaces and balls.
+#[derive(Clone, Debug, Default)]
+pub struct Interpretation {
+    /// All segments, in the order they were drawn.
+    pub segments: Vec<Segment>,
+    /// The axes that the segments form; each begins on an earlier one, or nowhere.
+    pub axes: Vec<Axis>,
+    /// Filled polygons.
+    pub polygons: Vec<Polygon>,
+    /// Predefined surfaces.
+    pub surfaces: Vec<Surface>,
+    /// Balls.
+    pub balls: Vec<Ball>,
+}
+
+/// One step of the turtle with the pen down.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Segment {
+    /// Where it begins, metres.
+    pub start: Vec3,
+    /// Where it ends, metres.
+    pub end: Vec3,
+    /// Half its width at the start, metres.
+    pub start_radius: f32,
+    /// Half its width at the end, metres.
+    pub end_radius: f32,
+    /// Index of its color at the start.
+    pub start_color: i32,
+    /// Index of its color.
+    pub color: i32,
+    /// Number of its axis.
+    pub axis: u32,
+    /// How many brackets were open.
+    pub depth: u32,
+    /// Left of the turtle, a unit vector.
+    pub left: Vec3,
+}
+
+/// Segments that continue each other.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Axis {
+    /// Where it grows out of another axis.
+    pub parent: Option<Anchor>,
+    /// Its cross-section.
+    pub contour: Contour,
+    /// How many segments it has.
+    pub segments: u32,
+    /// Number of its last segment.
+    pub(crate) last: u32,
+}
+
+/// A node of an axis: 0 is its base, n the end of its n-th segment.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Anchor {
+    /// Number of the axis.
+    pub axis: u32,
+    /// Number of the node.
+    pub node: u32,
+}
+
+/// The cross-section of an axis.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Contour {
+    /// A circle.
+    #[default]
+    Round,
+    /// Flat, as wide as the axis to the turtle's left and right.
+    Ribbon,
+    /// Flat, its edges bent up and down in turn.
+    Ruffle,
+}
+
+/// A filled polygon.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Polygon {
+    /// Its corners, metres.
+    pub corners: Vec<Vec3>,
+    /// Index of its color.
+    pub color: i32,
+    /// Where it sits on the plant.
+    pub anchor: Option<Anchor>,
+}
+
+/// A predefined surface, such as a leaf.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Surface {
+    /// The letter after `~`.
+    pub name: char,
+    /// Where its base is, metres.
+    pub position: Vec3,
+    /// How it is turned.
+    pub frame: Frame,
+    /// Its size to the left, ahead and up.
+    pub scale: Vec3,
+    /// Index of its color.
+    pub color: i32,
+    /// Where it sits on the plant.
+    pub anchor: Option<Anchor>,
+}
+
+/// A ball.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Ball {
+    /// Its center, metres.
+    pub center: Vec3,
+    /// Its radius, metres.
+    pub radius: f32,
+    /// The axis of its poles.
+    pub axis: Vec3,
+    /// Index of its color.
+    pub color: i32,
+    /// Where it sits on the plant.
+    pub anchor: Option<Anchor>,
+}
+
+impl Interpretation {
+    /// The numbers of each axis's segments from its base on: of axis `a` those in
+    /// `list[starts[a]..starts[a + 1]]`.
+    pub(crate) fn segments_by_axis(&self) -> (Vec<u32>, Vec<usize>) {
+        let mut starts = Vec::with_capacity(self.axes.len() + 1);
+        let mut total = 0;
+        starts.push(0);
+        for axis in &self.axes {
+            total += axis.segments as usize;
+            starts.push(total);
+        }
+        let mut next = starts.clone();
+        let mut list = vec![0; self.segments.len()];
+        for (number, segment) in self.segments.iter().enumerate() {
+            let place = &mut next[segment.axis as usize];
+            list[*place] = number as u32;
+            *place += 1;
+        }
+        (list, starts)
+    }
+}
