@@ -204,6 +204,24 @@ def export(
     export_world(opened(world, seed), output, seconds, positive("fps", fps), say=say)
 
 
+@app.command()
+def bench(
+    names: Annotated[
+        list[str] | None, typer.Argument(metavar="[NAME…]", help="Beginnings of names; all if none.")
+    ] = None,
+    json: Annotated[
+        Path | None, typer.Option("--json", metavar="FILE", help="Store the lines here too.")
+    ] = None,
+) -> None:
+    """Measure: one JSON line per figure. Needs the source checkout.
+
+    Example: bioscope bench reef.tick flock
+    """
+    from bioscope.bench import run as run_benchmarks
+
+    run_benchmarks(names or [], json, say)
+
+
 def main() -> None:
     """Run the command line; errors are one message and an exit status."""
     signal.signal(signal.SIGTERM, _terminated)
