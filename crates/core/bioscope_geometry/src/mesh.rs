@@ -6,8 +6,9 @@ use bioscope_core::Vec3;
 
 use crate::{Key, Transform};
 
-mod levels;
+pub(crate) mod levels;
 mod simplify;
+pub(crate) mod tiles;
 
 /// A triangle mesh in its own space, shared by all its instances; never changed once published
 /// (a deforming body publishes a new mesh).

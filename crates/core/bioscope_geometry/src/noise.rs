@@ -41,24 +41,24 @@ impl Noise {
 
     /// Gradient noise (Perlin 2002) with features one unit wide, about −1 to 1, zero on average.
     pub fn smooth(&self, point: Vec3) -> f32 {
-        let base = point.floor();
-        let part = point - base;
+        let [x, y, z] = point.to_array().map(floor);
+        let part = point - Vec3::new(x as f32, y as f32, z as f32);
         let fade = part * part * part * (part * (part * 6.0 - 15.0) + 10.0);
-        let [x, y, z] = base.to_array().map(|one| one as i32);
-        let corner = |dx: i32, dy: i32, dz: i32| {
-            let offset = part - Vec3::new(dx as f32, dy as f32, dz as f32);
-            slope(self.hash(x.wrapping_add(dx), y.wrapping_add(dy), z.wrapping_add(dz)), offset)
+        let [xs, ys, zs] = self.marks([x, y, z], |one| [one, one.wrapping_add(1)]);
+        let corner = |i: usize, j: usize, k: usize| {
+            let offset = part - Vec3::new(i as f32, j as f32, k as f32);
+            slope(scramble(xs[i] ^ ys[j] ^ zs[k]), offset)
         };
-        let along_x = |dy, dz| {
-            let (low, high) = (corner(0, dy, dz), corner(1, dy, dz));
-            low + (high - low) * fade.x
+        let along_x = |j, k| {
+            let low = corner(0, j, k);
+            low + (corner(1, j, k) - low) * fade.x
         };
-        let along_y = |dz| {
-            let (low, high) = (along_x(0, dz), along_x(1, dz));
-            low + (high - low) * fade.y
+        let along_y = |k| {
+            let low = along_x(0, k);
+            low + (along_x(1, k) - low) * fade.y
         };
-        let (low, high) = (along_y(0), along_y(1));
-        low + (high - low) * fade.z
+        let low = along_y(0);
+        low + (along_y(1) - low) * fade.z
     }
 
     /// Sum of `octaves` layers of [`smooth`](Self::smooth), each half as wide and half as strong as
@@ -91,14 +91,16 @@ impl Noise {
 
     /// The cells nearest to a point, one cell center per unit cube.
     pub fn cell(&self, point: Vec3) -> Cell {
-        let base = point.floor();
-        let part = point - base;
-        let [x, y, z] = base.to_array().map(|one| one as i32);
+        let [x, y, z] = point.to_array().map(floor);
+        let part = point - Vec3::new(x as f32, y as f32, z as f32);
+        let around = |one: i32| [one.wrapping_sub(1), one, one.wrapping_add(1)];
+        let [xs, ys, zs] = self.marks([x, y, z], around);
         let mut cell = Cell { nearest: f32::MAX, second: f32::MAX, random: 0.0 };
-        for (dx, dy, dz) in neighborhood() {
-            let hash = self.hash(x.wrapping_add(dx), y.wrapping_add(dy), z.wrapping_add(dz));
-            let center = Vec3::new(dx as f32, dy as f32, dz as f32) + jitter(hash);
-            let distance = center.distance_squared(part);
+        for index in 0..27 {
+            let (i, j, k) = (index % 3, index / 3 % 3, index / 9);
+            let hash = scramble(xs[i] ^ ys[j] ^ zs[k]);
+            let corner = Vec3::new(i as f32, j as f32, k as f32) - 1.0;
+            let distance = (corner + jitter(hash)).distance_squared(part);
             if distance < cell.nearest {
                 let random = unit(scramble(hash ^ 0xA511_E9B3));
                 cell = Cell { nearest: distance, second: cell.nearest, random };
@@ -109,35 +111,49 @@ impl Noise {
         Cell { nearest: cell.nearest.sqrt(), second: cell.second.sqrt(), ..cell }
     }
 
-    fn hash(&self, x: i32, y: i32, z: i32) -> u32 {
-        let wrap =
-            |one: i32| if self.period > 0 { one.rem_euclid(self.period) } else { one } as u32;
-        let mixed = wrap(x).wrapping_mul(0x8DA6_B343)
-            ^ wrap(y).wrapping_mul(0xD816_3841)
-            ^ wrap(z).wrapping_mul(0xCB1A_B31F);
-        scramble(mixed ^ self.seed.wrapping_mul(0x9E37_79B1))
+    /// One word for each lattice plane around a point; exclusive-ored and scrambled, three of them
+    /// make the random word of a lattice point.
+    fn marks<const N: usize>(
+        &self,
+        base: [i32; 3],
+        planes: impl Fn(i32) -> [i32; N],
+    ) -> [[u32; N]; 3] {
+        let wrap = |one: i32| if self.period > 0 { one.rem_euclid(self.period) } else { one } as u32;
+        let seed = self.seed.wrapping_mul(0x9E37_79B1);
+        let [x, y, z] = base.map(planes);
+        [
+            x.map(|one| wrap(one).wrapping_mul(0x8DA6_B343) ^ seed),
+            y.map(|one| wrap(one).wrapping_mul(0xD816_3841)),
+            z.map(|one| wrap(one).wrapping_mul(0xCB1A_B31F)),
+        ]
     }
 }
 
-fn neighborhood() -> impl Iterator<Item = (i32, i32, i32)> {
-    (0..27).map(|index| (index % 3 - 1, index / 3 % 3 - 1, index / 9 - 1))
+/// The greatest whole number that is not greater.
+fn floor(value: f32) -> i32 {
+    let whole = value as i32;
+    whole.wrapping_sub(i32::from((whole as f32) > value))
 }
 
 /// Inner product of `offset` with one of the twelve directions to the edges of a cube.
 fn slope(hash: u32, offset: Vec3) -> f32 {
-    let (a, b) = match (hash >> 2) % 3 {
-        0 => (offset.x, offset.y),
-        1 => (offset.y, offset.z),
-        _ => (offset.z, offset.x),
+    // Twelve of sixteen cases are the twelve edges, four occur twice (Perlin 2002).
+    let case = hash & 15;
+    let a = if case < 8 { offset.x } else { offset.y };
+    let b = if case < 4 {
+        offset.y
+    } else if case == 12 || case == 14 {
+        offset.x
+    } else {
+        offset.z
     };
-    let a = if hash & 1 == 0 { a } else { -a };
-    let b = if hash & 2 == 0 { b } else { -b };
-    a + b
+    (if case & 1 == 0 { a } else { -a }) + (if case & 2 == 0 { b } else { -b })
 }
 
+/// A point in the unit cube from ten bits for each coordinate.
 fn jitter(hash: u32) -> Vec3 {
-    let second = scramble(hash);
-    Vec3::new(unit(hash), unit(second), unit(scramble(second)))
+    let share = |shift: u32| ((hash >> shift) & 1023) as f32 * (1.0 / 1024.0);
+    Vec3::new(share(0), share(10), share(20))
 }
 
 fn unit(hash: u32) -> f32 {

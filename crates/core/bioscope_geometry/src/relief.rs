@@ -1,6 +1,7 @@
 //! The ground of a reef: a sandy basin, a wall of rock at its back, coral heads, a channel.
 
 use bioscope_core::{Error, Purpose, Random, Result, Vec3, math};
+use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::{Noise, Terrain};
@@ -63,10 +64,10 @@ impl Default for ReefRelief {
             seed: 1,
             size: [48.0, 44.0],
             spacing: 0.15,
-            floor: -8.0,
-            crest: -2.2,
+            floor: -5.6,
+            crest: -1.3,
             wall: -6.5,
-            wall_width: 5.5,
+            wall_width: 5.0,
             embrace: 7.0,
             roughness: 1.0,
             bommies: 5,
@@ -92,14 +93,12 @@ impl ReefRelief {
         let (columns, rows) = (samples(self.size[0]), samples(self.size[1]));
         let origin = self.size.map(|extent| -0.5 * extent);
         let mounds = self.all_mounds();
-        let mut heights = Vec::with_capacity(columns * rows);
-        for row in 0..rows {
-            let z = origin[1] + row as f32 * self.spacing;
-            for column in 0..columns {
-                let x = origin[0] + column as f32 * self.spacing;
-                heights.push(self.height(x, z, &mounds));
-            }
-        }
+        let height = |index: usize| {
+            let x = origin[0] + (index % columns) as f32 * self.spacing;
+            let z = origin[1] + (index / columns) as f32 * self.spacing;
+            self.height(x, z, &mounds)
+        };
+        let heights = (0..columns * rows).into_par_iter().map(height).collect();
         Terrain::new(origin, self.spacing, columns, heights)
     }
 

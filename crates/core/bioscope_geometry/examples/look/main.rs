@@ -1,5 +1,5 @@
 //! Measures the rasterizer on a reef-like scene and writes pictures to look at:
-//! `cargo run --release -p bioscope_geometry --example look -- FOLDER`.
+//! `cargo run --release -p bioscope_geometry --example look -- FOLDER [eyes|pictures]`.
 
 mod reef;
 
@@ -7,7 +7,7 @@ use std::path::Path;
 use std::time::Instant;
 
 use bioscope_core::Vec3;
-use bioscope_geometry::{Camera, Options, Projection, Rasterizer, Scene, View};
+use bioscope_geometry::{Camera, Options, Prepared, Projection, Rasterizer, Scene, View};
 
 fn main() {
     let folder = std::env::args().nth(1).unwrap_or_else(|| std::env::temp_dir().display().to_string());
@@ -15,8 +15,13 @@ fn main() {
     let triangles: usize =
         scene.batches.iter().map(|batch| batch.mesh.triangles.len() * batch.ids.len()).sum();
     println!("triangles {triangles}");
-    eyes(&scene, Path::new(&folder));
-    pictures(&scene, Path::new(&folder));
+    let part = std::env::args().nth(2);
+    if part.as_deref() != Some("pictures") {
+        eyes(&scene, Path::new(&folder));
+    }
+    if part.as_deref() != Some("eyes") {
+        pictures(&scene, Path::new(&folder));
+    }
 }
 
 fn eye(scene: &Scene, fish: usize, projection: Projection) -> Camera {
@@ -50,9 +55,21 @@ fn eyes(scene: &Scene, folder: &Path) {
         }
         println!("{name}: {:.0} views/s (prepare {:.2} ms)", 300.0 / best, preparing * 1e3);
         let prepared = rasterizer.prepare(scene, &Options::eye());
+        println!("{name}: {:.3} ms per view on one undisturbed thread", undisturbed(&prepared, &cameras[..50]));
         write(&prepared.look(&cameras[0], 64, 64), &folder.join(format!("eye_{name}.png")));
         write(&prepared.look(&cameras[0], 512, 512), &folder.join(format!("eye_{name}_large.png")));
     }
+}
+
+/// Mean over the views of the least time of a view, milliseconds.
+fn undisturbed(prepared: &Prepared, cameras: &[Camera]) -> f64 {
+    let time = |camera: &Camera| {
+        let start = Instant::now();
+        prepared.look_many(std::slice::from_ref(camera), 64, 64);
+        start.elapsed().as_secs_f64()
+    };
+    let least = |camera| (0..15).map(|_| time(camera)).fold(f64::INFINITY, f64::min);
+    cameras.iter().map(least).sum::<f64>() / cameras.len() as f64 * 1e3
 }
 
 fn pictures(scene: &Scene, folder: &Path) {

@@ -106,7 +106,7 @@ fn rocks(scene: &mut Scene, ground: &Terrain, id: &mut u32) {
         let bumps: Vec<_> = (0..10).map(|_| (random.direction(), random.range(-0.2, 0.35))).collect();
         let mut mesh = tube(detail, detail + 6, |along| {
             let polar = along * PI;
-            (Vec3::new(0.0, 0.0, -polar.cos()), [polar.sin(); 2])
+            (Vec3::new(0.0, 0.0, polar.cos()), [polar.sin(); 2])
         });
         for point in &mut mesh.positions {
             let push = |sum: f32, (way, size): &(Vec3, f32)| sum + size * (point.dot(*way) * 4.0).sin() * 0.35;

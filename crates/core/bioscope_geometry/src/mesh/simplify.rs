@@ -24,8 +24,10 @@ pub(super) struct Simplifier<'a> {
     /// Vertices of each triangle; none once it is gone.
     triangles: Vec<Option<[u32; 3]>>,
     count: usize,
+    /// Nodes on the outline of an open sheet.
     outline: Vec<bool>,
-    locked: bool,
+    /// Nodes that stay.
+    locked: Vec<bool>,
     /// Changes whenever something next to the node changes.
     stamps: Vec<u32>,
     queue: BinaryHeap<Reverse<Candidate>>,
@@ -83,8 +85,8 @@ impl Quadric {
 }
 
 impl<'a> Simplifier<'a> {
-    /// Starts from a whole mesh. `locked` keeps the outlines of open sheets as they are.
-    pub fn new(mesh: &'a Mesh, locked: bool) -> Self {
+    /// Starts from a whole mesh; vertices for which `locked` holds stay.
+    pub fn new(mesh: &'a Mesh, locked: impl Fn(usize) -> bool) -> Self {
         let (nodes, places) = weld(&mesh.positions);
         let count = places.len();
         let mut simplifier = Self {
@@ -96,7 +98,7 @@ impl<'a> Simplifier<'a> {
             triangles: Vec::with_capacity(mesh.triangles.len()),
             count: 0,
             outline: vec![false; count],
-            locked,
+            locked: vec![false; count],
             stamps: vec![0; count],
             queue: BinaryHeap::new(),
             error: 0.0,
@@ -105,6 +107,9 @@ impl<'a> Simplifier<'a> {
             simplifier.enter(*triangle);
         }
         simplifier.find_outline();
+        for vertex in (0..mesh.positions.len()).filter(|&vertex| locked(vertex)) {
+            simplifier.locked[simplifier.nodes[vertex] as usize] = true;
+        }
         for node in 0..count as u32 {
             simplifier.offer(node);
         }
@@ -182,7 +187,7 @@ impl<'a> Simplifier<'a> {
 
     /// Queues the cheapest collapse of a node into a neighbor.
     fn offer(&mut self, node: u32) {
-        if self.locked && self.outline[node as usize] {
+        if self.locked[node as usize] {
             return;
         }
         let cost = |to: u32| {
@@ -290,16 +295,16 @@ impl<'a> Simplifier<'a> {
         news.min_by(|&a, &b| distance(a).total_cmp(&distance(b))).unwrap_or(vertex)
     }
 
-    /// The mesh as it is now.
-    pub fn result(&self) -> Mesh {
-        let triangles: Vec<_> = self.triangles.iter().flatten().copied().collect();
-        self.mesh.part(&triangles)
+    /// The triangles left.
+    pub fn triangles(&self) -> Vec<[u32; 3]> {
+        self.triangles.iter().flatten().copied().collect()
     }
 }
 
 impl Mesh {
-    /// A mesh of some of this one's triangles, with the vertices they need and no levels.
-    pub(super) fn part(&self, triangles: &[[u32; 3]]) -> Mesh {
+    /// A mesh of some of this one's triangles, with the vertices they need and no levels; and which
+    /// vertices those are.
+    pub(super) fn part(&self, triangles: &[[u32; 3]]) -> (Mesh, Vec<usize>) {
         let mut numbers = vec![u32::MAX; self.positions.len()];
         let mut kept = Vec::new();
         let mut number = |vertex: u32| {
@@ -311,7 +316,7 @@ impl Mesh {
             *number
         };
         let triangles = triangles.iter().map(|triangle| triangle.map(&mut number)).collect();
-        Mesh {
+        let mesh = Mesh {
             positions: taken(&self.positions, &kept),
             normals: taken(&self.normals, &kept),
             uvs: taken(&self.uvs, &kept),
@@ -323,7 +328,8 @@ impl Mesh {
                 weights: taken(&skin.weights, &kept),
             }),
             ..Mesh::default()
-        }
+        };
+        (mesh, kept)
     }
 }
 
@@ -332,7 +338,7 @@ fn taken<T: Copy>(values: &[T], kept: &[usize]) -> Vec<T> {
 }
 
 /// Numbers the places of vertices; vertices at exactly one place get one number.
-fn weld(positions: &[Vec3]) -> (Vec<u32>, Vec<DVec3>) {
+pub(super) fn weld(positions: &[Vec3]) -> (Vec<u32>, Vec<DVec3>) {
     let bits = |vertex: u32| (positions[vertex as usize] + Vec3::ZERO).to_array().map(f32::to_bits);
     let mut order: Vec<u32> = (0..positions.len() as u32).collect();
     order.sort_by_key(|&vertex| (bits(vertex), vertex));

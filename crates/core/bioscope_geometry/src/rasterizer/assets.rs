@@ -7,12 +7,13 @@ use bioscope_core::Vec3;
 
 use super::prepare::{Options, Prepared};
 use super::texture::Mipmap;
+use crate::mesh::tiles::Tile;
 use crate::{Mesh, Scene};
 
 /// Meshes above this many triangles that come without levels are cut into tiles.
 const LARGE: usize = 8192;
 
-/// Triangles per tile of a large mesh.
+/// Triangles of the finest tiles of a large mesh.
 const TILE: usize = 1024;
 
 /// Makes scenes ready for looking at; remembers what it worked out for their meshes and textures.
@@ -68,14 +69,38 @@ pub(crate) struct Part {
     pub levels: Vec<(f32, Arc<Mesh>)>,
     /// Ball round the vertices that each joint moves: joint, center, radius.
     pub joints: Vec<(usize, Vec3, f32)>,
+    /// When a tile of a large mesh is shown.
+    pub tile: Option<Reign>,
+}
+
+/// When a tile is shown: if its own error is small enough where it is, and its parent's is not.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Reign {
+    pub own: Flaw,
+    /// Of the coarser tile that would replace it.
+    pub parent: Option<Flaw>,
+}
+
+/// How far a tile is from the true shape, metres, and the corners of the box round it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Flaw {
+    pub error: f32,
+    corners: [Vec3; 2],
+}
+
+impl Flaw {
+    /// Distance from a point to the box.
+    pub fn distance(&self, point: Vec3) -> f32 {
+        (point - point.clamp(self.corners[0], self.corners[1])).length()
+    }
 }
 
 impl Shape {
     pub fn new(mesh: &Arc<Mesh>) -> Self {
         let mesh = sound(mesh);
         if mesh.triangles.len() > LARGE && mesh.levels.is_empty() && mesh.skin.is_none() {
-            let tiles = mesh.tiles(TILE).into_iter();
-            return Self { parts: tiles.map(|tile| Part::new(&Arc::new(tile))).collect() };
+            let tiles = mesh.tiles(TILE);
+            return Self { parts: tiles.iter().map(|tile| Part::of(tile, &tiles)).collect() };
         }
         Self { parts: vec![Part::new(&mesh)] }
     }
@@ -91,7 +116,16 @@ impl Part {
         };
         let coarser = mesh.levels.iter().map(|(size, level)| (*size, sound(level)));
         levels.extend(coarser.filter(|(_, level)| same_joints(level)));
-        Self { center, radius, levels, joints: joint_balls(mesh) }
+        Self { center, radius, levels, joints: joint_balls(mesh), tile: None }
+    }
+
+    fn of(tile: &Tile, tiles: &[Tile]) -> Self {
+        let flaw = |tile: &Tile| Flaw { error: tile.error, corners: tile.corners };
+        let reign = Reign { own: flaw(tile), parent: tile.parent.map(|parent| flaw(&tiles[parent])) };
+        let [low, high] = tile.corners;
+        let (center, radius) = ((low + high) * 0.5, (high - low).length() * 0.5);
+        let levels = vec![(f32::INFINITY, Arc::new(tile.mesh.clone()))];
+        Self { center, radius, levels, joints: Vec::new(), tile: Some(reign) }
     }
 
     /// Number of the level for a projected diameter in pixels.

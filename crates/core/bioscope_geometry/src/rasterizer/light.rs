@@ -14,7 +14,7 @@ use std::f32::consts::FRAC_1_PI;
 
 use bioscope_core::Vec3;
 
-use super::arithmetic::{exp, exp3, smoothstep, unit};
+use super::arithmetic::{Rgb, channels, exp, exp_rgb, rgb, smoothstep, unit};
 use crate::{Medium, Scene, Sky, Sun};
 
 /// Index of refraction of sea water against air.
@@ -28,16 +28,16 @@ pub(crate) struct Light {
     /// Unit vector towards the sun as seen from under water (bent by the surface).
     pub sun_below: Vec3,
     /// Irradiance on a surface that faces the sun in air.
-    pub sun_color: Vec3,
-    pub zenith: Vec3,
-    pub horizon: Vec3,
-    pub nadir: Vec3,
+    pub sun_color: Rgb,
+    pub zenith: Rgb,
+    pub horizon: Rgb,
+    pub nadir: Rgb,
     /// Height of the water surface; −∞ where all is air.
     pub surface: f32,
-    pub absorption: Vec3,
+    pub absorption: Rgb,
     /// Absorption plus scattering.
-    pub extinction: Vec3,
-    pub glow: Vec3,
+    pub extinction: Rgb,
+    pub glow: Rgb,
     pub caustics: f32,
     pub caustic_scale: f32,
     pub shafts: f32,
@@ -51,18 +51,18 @@ impl Light {
         let sun = unit(*direction);
         let level = Vec3::new(sun.x, 0.0, sun.z) / REFRACTION;
         let sun_below = unit(level + Vec3::Y * (1.0 - level.dot(level)).max(0.1).sqrt());
-        let [absorption, scattering] = [absorption, scattering].map(|each| Vec3::from(each).max(Vec3::ZERO));
+        let [absorption, scattering] = [absorption, scattering].map(|each| rgb(each).max(Rgb::ZERO));
         Self {
             sun,
             sun_below,
-            sun_color: Vec3::from(*color),
-            zenith: zenith.into(),
-            horizon: horizon.into(),
-            nadir: nadir.into(),
+            sun_color: rgb(*color),
+            zenith: rgb(zenith),
+            horizon: rgb(horizon),
+            nadir: rgb(nadir),
             surface: surface.unwrap_or(f32::NEG_INFINITY),
             absorption,
             extinction: absorption + scattering,
-            glow: glow.into(),
+            glow: rgb(glow),
             caustics: medium.caustics,
             caustic_scale: medium.caustic_scale.max(1e-3),
             shafts: medium.shafts,
@@ -82,11 +82,29 @@ impl Light {
 
     /// Distance in metres at which less than one part in fifty of a thing's own light arrives.
     pub fn visibility(&self) -> f32 {
-        if self.has_water() || self.glow != Vec3::ZERO {
-            4.0 / self.extinction.min_element().max(1e-6)
+        if self.has_water() || self.glow != Rgb::ZERO {
+            let [red, green, blue] = channels(self.extinction);
+            4.0 / red.min(green).min(blue).max(1e-6)
         } else {
             f32::INFINITY
         }
+    }
+}
+
+/// Where a view is taken from.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Eye {
+    pub place: Vec3,
+    /// Metres below the surface.
+    pub depth: f32,
+    /// What is left of daylight there.
+    pub daylight: Rgb,
+}
+
+impl Eye {
+    pub fn new(light: &Light, place: Vec3) -> Self {
+        let depth = light.depth(place.y);
+        Self { place, depth, daylight: daylight(light, depth) }
     }
 }
 
@@ -94,7 +112,7 @@ impl Light {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Finish {
     /// Share of light thrown back evenly.
-    pub albedo: Vec3,
+    pub albedo: Rgb,
     /// Strength of the highlight at normal incidence.
     pub specular: f32,
     pub roughness: f32,
@@ -104,25 +122,30 @@ pub(crate) struct Finish {
 /// Share of the medium's own light collected over `distance` along a ray that rises by `rise`
 /// per metre, relative to the glow at the ray's start. Works for infinite distance.
 #[inline(always)]
-pub(crate) fn collected(light: &Light, rise: f32, distance: f32) -> Vec3 {
-    let rate = (light.extinction - light.absorption * rise).max(Vec3::splat(1e-6));
-    light.extinction / rate * (Vec3::ONE - exp3(-rate * distance))
+pub(crate) fn collected(light: &Light, rise: f32, distance: f32) -> Rgb {
+    let rate = (light.extinction - light.absorption * rise).max(Rgb::splat(1e-6));
+    light.extinction / rate * (Rgb::ONE - exp_rgb(rate * -distance))
 }
 
-/// Radiance that water sends towards an eye at `depth` over `distance` along `direction`.
-/// Water scatters mostly forward, so it is brighter towards the sun.
+/// What is left of daylight at a depth.
 #[inline(always)]
-pub(crate) fn water_glow(light: &Light, depth: f32, direction: Vec3, distance: f32) -> Vec3 {
+pub(crate) fn daylight(light: &Light, depth: f32) -> Rgb {
+    exp_rgb(light.absorption * -depth.max(0.0))
+}
+
+/// Radiance that water sends towards an eye over `distance` along `direction`; `dim` is the daylight at
+/// the eye's depth. Water scatters mostly forward, so it is brighter towards the sun.
+#[inline(always)]
+pub(crate) fn water_glow(light: &Light, dim: Rgb, direction: Vec3, distance: f32) -> Rgb {
     let towards = direction.dot(light.sun_below).max(0.0);
     let square = towards * towards;
-    let forward = 1.0 + 0.6 * square * square * towards;
-    let here = light.glow * exp3(-light.absorption * depth.max(0.0));
-    here * collected(light, direction.y, distance) * forward
+    let forward = 1.0 + 0.8 * square * square * towards;
+    light.glow * dim * collected(light, direction.y, distance) * forward
 }
 
 /// Sky in a direction, without the sun.
 #[inline(always)]
-pub(crate) fn sky(light: &Light, direction: Vec3) -> Vec3 {
+pub(crate) fn sky(light: &Light, direction: Vec3) -> Rgb {
     let rise = direction.y;
     if rise > 0.0 {
         light.horizon.lerp(light.zenith, rise.sqrt())
@@ -133,36 +156,36 @@ pub(crate) fn sky(light: &Light, direction: Vec3) -> Vec3 {
 
 /// The sun's disc and its halo in a direction of the sky; `blur` widens the disc (0 sharp).
 #[inline(always)]
-pub(crate) fn sun_disc(light: &Light, direction: Vec3, blur: f32) -> Vec3 {
+pub(crate) fn sun_disc(light: &Light, direction: Vec3, blur: f32) -> Rgb {
     let away = 1.0 - direction.dot(light.sun);
     let disc = smoothstep(0.000_12 + blur, 0.000_05, away) * 40.0 / (1.0 + blur * 4000.0);
     let halo = 0.6 * exp(-away * 60.0) + 1.5 * exp(-away * 900.0);
     light.sun_color * (disc + halo)
 }
 
-/// Diffuse radiance that a surface of this unit normal sees at this depth.
+/// Diffuse radiance that a surface of this unit normal sees at this depth, with the daylight there.
 #[inline(always)]
-pub(crate) fn ambient(light: &Light, normal: Vec3, depth: f32) -> Vec3 {
+pub(crate) fn ambient(light: &Light, normal: Vec3, depth: f32, dim: Rgb) -> Rgb {
     let up = 0.5 + 0.5 * normal.y;
     if depth <= 0.0 {
         let low = light.horizon.lerp(light.nadir, 0.7);
         return low.lerp(light.zenith.lerp(light.horizon, 0.3), up);
     }
-    let dim = exp3(-light.absorption * depth);
     let side = light.glow * dim;
-    let through = (light.zenith + light.horizon) * 0.35 * dim;
-    let above = side * 1.6 + through;
-    let below = side * 0.35 + through * 0.12;
-    below.lerp(side + through * 0.3, (up * 2.0).min(1.0)).lerp(above, (up * 2.0 - 1.0).max(0.0))
+    let through = (light.zenith + light.horizon) * dim;
+    let above = side * 0.9 + through * 0.22;
+    let level = side * 0.7 + through * 0.06;
+    let below = side * 0.25 + through * 0.05;
+    below.lerp(level, (up * 2.0).min(1.0)).lerp(above, (up * 2.0 - 1.0).max(0.0))
 }
 
 /// Sunlight on a surface that faces the sun at this depth, before shadows and caustics.
 #[inline(always)]
-pub(crate) fn sunlight(light: &Light, depth: f32) -> Vec3 {
+pub(crate) fn sunlight(light: &Light, depth: f32) -> Rgb {
     if depth <= 0.0 {
         return light.sun_color;
     }
-    light.sun_color * exp3(light.extinction * (-depth / light.sun_below.y))
+    light.sun_color * exp_rgb(light.extinction * (-depth / light.sun_below.y))
 }
 
 /// Radiance that a surface sends to the eye. `sunlight` is what arrives at its place from the sun,
@@ -171,22 +194,24 @@ pub(crate) fn sunlight(light: &Light, depth: f32) -> Vec3 {
 pub(crate) fn reflected(
     light: &Light,
     finish: &Finish,
-    sunlight: Vec3,
+    sunlight: Rgb,
     depth: f32,
     normal: Vec3,
     to_eye: Vec3,
-) -> Vec3 {
+) -> Rgb {
     let sun = if depth > 0.0 { light.sun_below } else { light.sun };
+    let dim = daylight(light, depth);
     let facing = normal.dot(sun);
     let through = finish.translucency * (-facing).max(0.0);
     let even = sunlight * (FRAC_1_PI * (facing.max(0.0) * (1.0 - 0.5 * finish.translucency) + through));
-    let around = ambient(light, normal, depth);
-    let grazing = 1.0 - normal.dot(to_eye).clamp(0.0, 1.0);
+    let around = ambient(light, normal, depth, dim);
+    let towards = normal.dot(to_eye);
+    let grazing = 1.0 - towards.clamp(0.0, 1.0);
     let square = grazing * grazing;
     let fresnel = finish.specular
         + (1.0 - finish.specular) * 0.3 * (1.0 - finish.roughness) * square * square * grazing;
-    let mirror = normal * (2.0 * normal.dot(to_eye)) - to_eye;
-    let image = ambient(light, mirror, depth) * (fresnel * (1.0 - 0.6 * finish.roughness));
+    let mirror = normal * (2.0 * towards) - to_eye;
+    let image = ambient(light, mirror, depth, dim) * (fresnel * (1.0 - 0.6 * finish.roughness));
     let mut radiance = finish.albedo * (even + around) * (1.0 - fresnel) + image;
     if facing > 0.0 {
         radiance += sunlight * (facing * highlight(finish, fresnel, normal, unit(sun + to_eye)));
@@ -210,43 +235,43 @@ fn highlight(finish: &Finish, fresnel: f32, normal: Vec3, half: Vec3) -> f32 {
 #[inline(always)]
 pub(crate) fn arriving(
     light: &Light,
-    eye: Vec3,
+    eye: &Eye,
     direction: Vec3,
     distance: f32,
-    radiance: Vec3,
+    radiance: Rgb,
     slope: impl Fn(Vec3, f32) -> Vec3,
-) -> Vec3 {
+) -> Rgb {
     if !light.has_water() {
         return through_air(light, direction, distance, radiance);
     }
-    let depth = light.surface - eye.y;
+    let depth = eye.depth;
     let crossing = depth / direction.y;
     let crosses = crossing > 0.0 && crossing < distance;
     if depth > 0.0 {
         let (run, seen) = if crosses {
-            let tilt = slope(eye + direction * crossing, crossing);
+            let tilt = slope(eye.place + direction * crossing, crossing);
             (crossing, window(light, direction, tilt, radiance, distance.is_infinite()))
         } else {
             (distance, radiance)
         };
-        return seen * exp3(-light.extinction * run) + water_glow(light, depth, direction, run);
+        return seen * exp_rgb(light.extinction * -run) + water_glow(light, eye.daylight, direction, run);
     }
     if !crosses {
         return radiance;
     }
-    let tilt = slope(eye + direction * crossing, crossing);
+    let tilt = slope(eye.place + direction * crossing, crossing);
     water_from_above(light, direction, tilt, distance - crossing, radiance)
 }
 
 /// Air with fog: the glow replaces what the fog takes; the sky lies behind 300 m of height of it.
 #[inline(always)]
-fn through_air(light: &Light, direction: Vec3, distance: f32, radiance: Vec3) -> Vec3 {
-    if light.extinction == Vec3::ZERO {
+fn through_air(light: &Light, direction: Vec3, distance: f32, radiance: Rgb) -> Rgb {
+    if light.extinction == Rgb::ZERO {
         return radiance;
     }
     let run = distance.min(300.0 / direction.y.max(0.01));
-    let kept = exp3(-light.extinction * run);
-    radiance * kept + light.glow * (Vec3::ONE - kept)
+    let kept = exp_rgb(light.extinction * -run);
+    radiance * kept + light.glow * (Rgb::ONE - kept)
 }
 
 /// Unpolarized reflectance of the water surface for the cosines of the two angles.
@@ -260,11 +285,11 @@ fn fresnel(inside: f32, outside: f32) -> f32 {
 /// The underside of the surface: Snell's window (97 degrees wide) with sky and sun, the mirror of
 /// the deep around it. `above` is the radiance of what stands above the water there, used instead of
 /// the sky unless `open`.
-pub(crate) fn window(light: &Light, direction: Vec3, tilt: Vec3, above: Vec3, open: bool) -> Vec3 {
+pub(crate) fn window(light: &Light, direction: Vec3, tilt: Vec3, above: Rgb, open: bool) -> Rgb {
     let inside = direction.dot(tilt).max(0.0);
     let mirrored = direction - tilt * (2.0 * inside);
     let rise = mirrored.y.min(0.0);
-    let deep = water_glow(light, 0.0, Vec3::new(mirrored.x, rise, mirrored.z), f32::INFINITY);
+    let deep = water_glow(light, Rgb::ONE, Vec3::new(mirrored.x, rise, mirrored.z), f32::INFINITY);
     let rest = 1.0 - REFRACTION * REFRACTION * (1.0 - inside * inside);
     if rest <= 0.0 {
         return deep;
@@ -286,13 +311,13 @@ pub(crate) fn water_from_above(
     direction: Vec3,
     tilt: Vec3,
     run: f32,
-    radiance: Vec3,
-) -> Vec3 {
+    radiance: Rgb,
+) -> Rgb {
     let outside = (-direction.dot(tilt)).max(0.02);
     let inside = (1.0 - (1.0 - outside * outside) / (REFRACTION * REFRACTION)).sqrt();
     let bent = direction / REFRACTION + tilt * (outside / REFRACTION - inside);
-    let kept = radiance * exp3(-light.extinction * run);
-    let body = if run.is_finite() { kept } else { Vec3::ZERO } + water_glow(light, 0.0, bent, run);
+    let kept = radiance * exp_rgb(light.extinction * -run);
+    let body = if run.is_finite() { kept } else { Rgb::ZERO } + water_glow(light, Rgb::ONE, bent, run);
     let mirrored = direction + tilt * (2.0 * outside);
     let up = Vec3::new(mirrored.x, mirrored.y.max(0.02), mirrored.z);
     let shine = sky(light, up) + sun_disc(light, mirrored, 0.0005);
@@ -302,11 +327,11 @@ pub(crate) fn water_from_above(
 /// Scene-referred to display-referred: a filmic curve (Narkowicz' fit of the ACES curve) that
 /// keeps a little of the color of very bright light. Input and output linear, output 0 to 1.
 #[inline(always)]
-pub(crate) fn filmic(radiance: Vec3) -> Vec3 {
-    let x = radiance.max(Vec3::ZERO) * 0.8;
-    let white = x.dot(Vec3::new(0.2126, 0.7152, 0.0722));
-    let x = x.lerp(Vec3::splat(white), 0.35 * smoothstep(0.6, 4.0, white));
-    let top = x * (x * 2.51 + Vec3::splat(0.03));
-    let bottom = x * (x * 2.43 + Vec3::splat(0.59)) + Vec3::splat(0.14);
-    (top / bottom).clamp(Vec3::ZERO, Vec3::ONE)
+pub(crate) fn filmic(radiance: Rgb) -> Rgb {
+    let x = radiance.max(Rgb::ZERO) * 0.8;
+    let white = x.dot(rgb([0.2126, 0.7152, 0.0722]));
+    let x = x.lerp(Rgb::splat(white), 0.35 * smoothstep(0.6, 4.0, white));
+    let top = x * (x * 2.51 + Rgb::splat(0.03));
+    let bottom = x * (x * 2.43 + Rgb::splat(0.59)) + Rgb::splat(0.14);
+    (top / bottom).clamp(Rgb::ZERO, Rgb::ONE)
 }

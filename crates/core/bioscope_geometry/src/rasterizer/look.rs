@@ -6,12 +6,15 @@ use bioscope_core::{Id, Vec3};
 use rayon::prelude::*;
 
 use super::cover::{NOBODY, Sheet, Tests};
+use super::arithmetic::{Rgb, channels};
 use super::lens::{Lens, Seen, Stand};
+use super::light::Eye;
 use super::prepare::{Prepared, Thing};
 use super::shade::Shader;
 use super::shafts::add_shafts;
 use super::spots::{Spot, spots};
 use super::view::{Strip, View};
+use crate::mesh::levels::ALLOWED;
 use crate::{Camera, Mesh};
 
 /// Views with more pixels than this are painted in strips by several threads.
@@ -94,7 +97,8 @@ impl Prepared {
         }
         let samples = self.samples();
         let stand = Stand::new(camera);
-        let shader = Shader { prepared: self, stand, pitch: lens.pitch() * samples as f32 };
+        let eye = Eye::new(&self.light, stand.eye);
+        let shader = Shader { prepared: self, stand, eye, pitch: lens.pitch() * samples as f32 };
         let spots = spots(self, &shader, lens, samples);
         let draws = self.draws(lens, &stand, samples);
         let look = Look { shader, lens, samples, draws, spots };
@@ -124,6 +128,10 @@ impl Prepared {
             let center = stand.inward(thing.center);
             let distance = center.length();
             if distance - thing.radius > farthest {
+                continue;
+            }
+            let visible = |error: f32, distance: f32| lens.size(0.5 * error, distance) * detail > ALLOWED;
+            if !self.has_turn(thing, stand.eye, visible) {
                 continue;
             }
             let Some(rows) = lens.sees_ball(center, thing.radius) else { continue };
@@ -222,7 +230,7 @@ impl Look<'_> {
                 let (owner, nearness) = (sheet.owners()[line + column], sheet.nearness()[line + column]);
                 let index = (row - strip.rows[0]) * strip.width + column;
                 let (color, depth, identity) = self.sample(owner, nearness, ray);
-                strip.color[index] = color.to_array();
+                strip.color[index] = channels(color);
                 strip.depth[index] = depth;
                 strip.identity[index] = identity;
             }
@@ -250,7 +258,7 @@ impl Look<'_> {
                         }
                     }
                 }
-                let mut color = Vec3::ZERO;
+                let mut color = Rgb::ZERO;
                 let mut best = (0, f32::INFINITY, 0);
                 for &(place, share) in &groups[..count] {
                     let inside = place - first;
@@ -263,7 +271,7 @@ impl Look<'_> {
                     }
                 }
                 let index = (row - strip.rows[0]) * strip.width + column;
-                strip.color[index] = color.to_array();
+                strip.color[index] = channels(color);
                 (strip.depth[index], strip.identity[index]) = (best.1, best.2);
             }
         }
@@ -289,7 +297,7 @@ impl Look<'_> {
 
     /// Color, depth and identity of a sample, given its unit ray in camera space.
     #[inline(always)]
-    fn sample(&self, owner: u32, nearness: f32, ray: Vec3) -> (Vec3, f32, Id) {
+    fn sample(&self, owner: u32, nearness: f32, ray: Vec3) -> (Rgb, f32, Id) {
         let direction = self.shader.stand.outward(ray);
         if owner == NOBODY {
             return (self.shader.background(direction), f32::INFINITY, 0);

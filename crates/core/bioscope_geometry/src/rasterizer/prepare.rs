@@ -5,7 +5,8 @@ use std::sync::{Arc, OnceLock};
 
 use bioscope_core::{Id, Vec3};
 
-use super::assets::{Part, Rasterizer, Shape};
+use super::arithmetic::{Rgb, rgb};
+use super::assets::{Flaw, Part, Rasterizer, Shape};
 use super::light::Light;
 use super::pose::{Posed, bounds, pose};
 use super::shadow::Shadow;
@@ -116,11 +117,24 @@ impl Prepared {
         })
     }
 
+    /// Whether a tile of a large mesh has its turn: its own error is invisible, that of the coarser tile in
+    /// its place is not. `visible` judges an error and the nearest distance to it, both in metres in
+    /// the world. Other things always have their turn.
+    #[inline(always)]
+    pub(crate) fn has_turn(&self, thing: &Thing, eye: Vec3, visible: impl Fn(f32, f32) -> bool) -> bool {
+        let Some(reign) = &self.part(thing).tile else { return true };
+        let transform = &self.scene.batches[thing.batch as usize].transforms[thing.instance as usize];
+        let scale = transform.scale.abs();
+        let eye = transform.inverse().point(eye);
+        let shows = |flaw: &Flaw| visible(flaw.error * scale, flaw.distance(eye) * scale);
+        !shows(&reign.own) && reign.parent.as_ref().is_none_or(shows)
+    }
+
     /// Tint of a thing.
     #[inline(always)]
-    pub(crate) fn tint(&self, thing: &Thing) -> Vec3 {
+    pub(crate) fn tint(&self, thing: &Thing) -> Rgb {
         let tints = &self.scene.batches[thing.batch as usize].tints;
-        tints.get(thing.instance as usize).map_or(Vec3::ONE, |&tint| tint.into())
+        tints.get(thing.instance as usize).map_or(Rgb::ONE, |&tint| rgb(tint))
     }
 }
 

@@ -2,8 +2,9 @@
 
 use bioscope_core::Vec3;
 
+use super::arithmetic::{Rgb, rgb, unit};
 use super::lens::Stand;
-use super::light::{Finish, Light, arriving, reflected, sky, sun_disc, sunlight};
+use super::light::{Eye, Finish, Light, arriving, reflected, sky, sun_disc, sunlight};
 use super::prepare::{Prepared, Thing};
 use super::texture::Mipmap;
 use crate::{Material, Mesh};
@@ -12,6 +13,7 @@ use crate::{Material, Mesh};
 pub(crate) struct Shader<'a> {
     pub prepared: &'a Prepared,
     pub stand: Stand,
+    pub eye: Eye,
     /// Angle between neighboring pixels, radians.
     pub pitch: f32,
 }
@@ -66,7 +68,7 @@ fn at<T: Copy>(values: &[T], triangle: [u32; 3]) -> [T; 3] {
 
 impl<'a> Shader<'a> {
     /// What arrives at the eye from a point of a triangle, at `distance` along a unit direction.
-    pub fn surface(&self, thing: &Thing, level: usize, triangle: usize, direction: Vec3, distance: f32) -> Vec3 {
+    pub fn surface(&self, thing: &Thing, level: usize, triangle: usize, direction: Vec3, distance: f32) -> Rgb {
         let prepared = self.prepared;
         let posed = prepared.posed(thing, level);
         let mesh: &Mesh = &prepared.part(thing).levels[level].1;
@@ -74,18 +76,18 @@ impl<'a> Shader<'a> {
         let triangle = mesh.triangles[triangle];
         let eye = self.stand.eye;
         let seen = Corner3::new(at(&posed.points, triangle).map(|corner| corner - eye), direction);
-        let mut normal = super::arithmetic::unit(seen.mix(at(&posed.normals, triangle)));
+        let mut normal = unit(seen.mix(at(&posed.normals, triangle)));
         if seen.area.dot(direction) > 0.0 {
             normal = -normal;
         }
-        let mut albedo = Vec3::from(material.color) * prepared.tint(thing);
+        let mut albedo = rgb(material.color) * prepared.tint(thing);
         if !mesh.colors.is_empty() {
-            albedo *= seen.mix(at(&mesh.colors, triangle).map(Vec3::from));
+            albedo *= rgb(seen.mix(at(&mesh.colors, triangle).map(Vec3::from)).to_array());
         }
         if let Some(picture) = self.picture(thing, mesh) {
             let (uv, footprint) = seen.texel(picture, at(&mesh.uvs, triangle), direction, self.pitch);
             let [red, green, blue, _] = picture.read(uv, footprint, prepared.options.smooth);
-            albedo *= Vec3::new(red, green, blue);
+            albedo *= rgb([red, green, blue]);
         }
         let finish = Finish {
             albedo,
@@ -98,14 +100,14 @@ impl<'a> Shader<'a> {
 
     /// What arrives from a surface in the scene's light.
     #[inline(always)]
-    fn lit(&self, finish: &Finish, normal: Vec3, direction: Vec3, distance: f32) -> Vec3 {
+    fn lit(&self, finish: &Finish, normal: Vec3, direction: Vec3, distance: f32) -> Rgb {
         let light = &self.prepared.light;
         let point = self.stand.eye + direction * distance;
         let depth = light.depth(point.y);
         let sun = if depth > 0.0 { light.sun_below } else { light.sun };
         let facing = normal.dot(sun);
         let lit = facing > 0.0 || finish.translucency > 0.0;
-        let sunlight = if lit { self.sunlight(point, normal * facing.signum(), depth) } else { Vec3::ZERO };
+        let sunlight = if lit { self.sunlight(point, normal * facing.signum(), depth) } else { Rgb::ZERO };
         let radiance = reflected(light, finish, sunlight, depth, normal, -direction);
         self.arriving(direction, distance, radiance)
     }
@@ -113,7 +115,7 @@ impl<'a> Shader<'a> {
     /// Sunlight at a point whose surface faces the sun with this normal: dimmed by water, gathered by
     /// waves, kept off by what stands before it.
     #[inline(always)]
-    pub fn sunlight(&self, point: Vec3, normal: Vec3, depth: f32) -> Vec3 {
+    pub fn sunlight(&self, point: Vec3, normal: Vec3, depth: f32) -> Rgb {
         let Prepared { light, waves, shadow, .. } = self.prepared;
         let mut strength = 1.0;
         if depth > 0.0 && light.caustics > 0.0 {
@@ -127,17 +129,16 @@ impl<'a> Shader<'a> {
 
     /// Radiance after its way to the eye.
     #[inline(always)]
-    pub fn arriving(&self, direction: Vec3, distance: f32, radiance: Vec3) -> Vec3 {
+    pub fn arriving(&self, direction: Vec3, distance: f32, radiance: Rgb) -> Rgb {
         let Prepared { light, waves, .. } = self.prepared;
         let slope = |point, distance| waves.slope(point, distance);
-        arriving(light, self.stand.eye, direction, distance, radiance, slope)
+        arriving(light, &self.eye, direction, distance, radiance, slope)
     }
 
     /// What arrives from where there is nothing.
-    pub fn background(&self, direction: Vec3) -> Vec3 {
+    pub fn background(&self, direction: Vec3) -> Rgb {
         let light: &Light = &self.prepared.light;
-        let below = light.depth(self.stand.eye.y) > 0.0;
-        let radiance = if below { Vec3::ZERO } else { sky(light, direction) + sun_disc(light, direction, 0.0) };
+        let radiance = if self.eye.depth > 0.0 { Rgb::ZERO } else { sky(light, direction) + sun_disc(light, direction, 0.0) };
         self.arriving(direction, f32::INFINITY, radiance)
     }
 

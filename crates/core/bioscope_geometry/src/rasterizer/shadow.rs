@@ -136,6 +136,10 @@ fn band(prepared: &Prepared, frame: &Frame, rows: [usize; 2]) -> Vec<f32> {
         if columns_missed || outside(middle.y, rows[0] as f32, rows[1] as f32) {
             continue;
         }
+        let visible = |error: f32, _: f32| error * frame.per_meter * prepared.options.detail > 1.0;
+        if !prepared.has_turn(thing, Vec3::ZERO, visible) {
+            continue;
+        }
         let part = prepared.part(thing);
         let level = part.level(reach * prepared.options.detail);
         places.clear();

@@ -4,7 +4,7 @@
 use bioscope_core::Vec3;
 use rayon::prelude::*;
 
-use super::arithmetic::exp3;
+use super::arithmetic::{Rgb, channels, exp_rgb, rgb};
 use super::lens::Lens;
 use super::prepare::Prepared;
 use super::shade::Shader;
@@ -27,13 +27,13 @@ pub(crate) fn add_shafts(view: &mut View, shader: &Shader, lens: &Lens, samples:
         return;
     }
     let depth = &view.depth;
-    let cells: Vec<Vec3> = (0..bounds[0] * bounds[1])
+    let cells: Vec<Rgb> = (0..bounds[0] * bounds[1])
         .into_par_iter()
         .map(|index| {
             let (column, row) = (index % bounds[0], index / bounds[0]);
             let pixel = [(column * CELL).min(view.width - 1), (row * CELL).min(view.height - 1)];
             let Some(ray) = lens.ray(pixel[0] * samples, pixel[1] * samples) else {
-                return Vec3::ZERO;
+                return Rgb::ZERO;
             };
             let distance = depth[pixel[1] * view.width + pixel[0]];
             let start = ((column * 5 + row * 3) % 8) as f32 / 8.0;
@@ -44,14 +44,14 @@ pub(crate) fn add_shafts(view: &mut View, shader: &Shader, lens: &Lens, samples:
     view.color.par_chunks_mut(width).enumerate().for_each(|(row, line)| {
         for (column, color) in line.iter_mut().enumerate() {
             let beam = between(&cells, bounds[0], column, row);
-            *color = (Vec3::from(*color) + beam).max(Vec3::ZERO).to_array();
+            *color = channels((rgb(*color) + beam).max(Rgb::ZERO));
         }
     });
 }
 
 /// Light scattered towards the eye along a ray, as difference from still water's; `start` in 0..1
 /// shifts the steps, so that neighboring rays fill each other's gaps.
-fn march(shader: &Shader, direction: Vec3, distance: f32, start: f32) -> Vec3 {
+fn march(shader: &Shader, direction: Vec3, distance: f32, start: f32) -> Rgb {
     let Prepared { light, waves, shadow, .. } = shader.prepared;
     let eye = shader.stand.eye;
     let surface = light.depth(eye.y) / direction.y.max(1e-6);
@@ -59,7 +59,7 @@ fn march(shader: &Shader, direction: Vec3, distance: f32, start: f32) -> Vec3 {
     let towards = direction.dot(light.sun_below).max(0.0);
     let strength = light.shafts * (0.018 + 0.06 * towards * towards * towards);
     let step = length / STEPS as f32;
-    let mut sum = Vec3::ZERO;
+    let mut sum = Rgb::ZERO;
     for number in 0..STEPS {
         let run = (number as f32 + start) * step;
         let point = eye + direction * run;
@@ -67,14 +67,14 @@ fn march(shader: &Shader, direction: Vec3, distance: f32, start: f32) -> Vec3 {
         let pattern = waves.pattern(light, point, depth, 4);
         let lit = shadow.as_ref().map_or(1.0, |shadow| shadow.lit(point, Vec3::ZERO));
         let path = run + depth / light.sun_below.y;
-        sum += exp3(light.extinction * -path) * (pattern * lit - 1.0);
+        sum += exp_rgb(light.extinction * -path) * (pattern * lit - 1.0);
     }
     light.sun_color * sum * (strength * step)
 }
 
 /// Value between the four cells round a pixel.
 #[inline(always)]
-fn between(cells: &[Vec3], width: usize, column: usize, row: usize) -> Vec3 {
+fn between(cells: &[Rgb], width: usize, column: usize, row: usize) -> Rgb {
     let (left, u) = (column / CELL, (column % CELL) as f32 / CELL as f32);
     let (top, v) = (row / CELL, (row % CELL) as f32 / CELL as f32);
     let first = top * width + left;

@@ -4,9 +4,9 @@ use std::f32::consts::FRAC_1_PI;
 
 use bioscope_core::{Id, Vec3};
 
-use super::arithmetic::smoothstep;
+use super::arithmetic::{Rgb, channels, rgb, smoothstep};
 use super::lens::Lens;
-use super::light::ambient;
+use super::light::{ambient, daylight};
 use super::prepare::Prepared;
 use super::shade::Shader;
 use super::view::Strip;
@@ -29,7 +29,7 @@ pub(crate) struct Spot {
     opacity: f32,
     glassy: bool,
     /// Radiance that arrives at the eye.
-    color: Vec3,
+    color: Rgb,
     id: Id,
 }
 
@@ -57,7 +57,7 @@ pub(crate) fn spots(prepared: &Prepared, shader: &Shader, lens: &Lens, samples: 
                 distance,
                 opacity: points.opacity.clamp(0.0, 1.0) * fading,
                 glassy: points.glassy,
-                color: color(shader, center, Vec3::from(points.color), points.glassy),
+                color: color(shader, center, rgb(points.color), points.glassy),
                 id,
             });
         }
@@ -67,16 +67,17 @@ pub(crate) fn spots(prepared: &Prepared, shader: &Shader, lens: &Lens, samples: 
 }
 
 /// What arrives from a small ball: sun from one side, the surroundings from all.
-fn color(shader: &Shader, center: Vec3, albedo: Vec3, glassy: bool) -> Vec3 {
+fn color(shader: &Shader, center: Vec3, albedo: Rgb, glassy: bool) -> Rgb {
     let light = &shader.prepared.light;
     let depth = light.depth(center.y);
+    let dim = daylight(light, depth);
     let sun = shader.sunlight(center, Vec3::ZERO, depth);
     let offset = center - shader.stand.eye;
     let distance = offset.length();
     let even = if glassy {
-        ambient(light, Vec3::Y, depth) * 1.2 + sun * 0.15
+        ambient(light, Vec3::Y, depth, dim) * 1.2 + sun * 0.15
     } else {
-        sun * (0.4 * FRAC_1_PI) + ambient(light, Vec3::ZERO, depth)
+        sun * (0.4 * FRAC_1_PI) + ambient(light, Vec3::ZERO, depth, dim)
     };
     shader.arriving(offset / distance, distance, albedo * even)
 }
@@ -115,8 +116,8 @@ impl Spot {
             color *= 0.9 - 0.5 * (y / self.radius) * rim + glint;
         }
         let opacity = opacity.min(1.0);
-        let old = Vec3::from(strip.color[index]);
-        strip.color[index] = old.lerp(color, opacity).to_array();
+        let old = rgb(strip.color[index]);
+        strip.color[index] = channels(old.lerp(color, opacity));
         if inside >= 0.5 && self.opacity >= 0.5 {
             strip.depth[index] = self.distance;
             strip.identity[index] = self.id;

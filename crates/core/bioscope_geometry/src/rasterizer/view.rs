@@ -1,7 +1,8 @@
 //! What a look gives.
 
-use bioscope_core::{Id, Vec3};
+use bioscope_core::Id;
 
+use super::arithmetic::rgb;
 use super::light::filmic;
 use super::texture::encoded;
 
@@ -64,7 +65,7 @@ impl View {
         self.color
             .iter()
             .flat_map(|&radiance| {
-                let display = filmic(Vec3::from(radiance) * exposure);
+                let display = filmic(rgb(radiance) * exposure);
                 [encoded(display.x), encoded(display.y), encoded(display.z)]
             })
             .collect()
