@@ -206,6 +206,17 @@ class World:
         with naming(path):
             return cls._of(_engine.World.restore(data, populations.kinds(), fields.kinds()))
 
+    def export(
+        self, path: str | PathLike[str], seconds: float, fps: float = 24.0, **options: Any
+    ) -> None:
+        """Run for `seconds` and write what can be seen to a .usdc, .usda or .glb file.
+
+        `options` are those of `bioscope.export.export_world`.
+        """
+        from bioscope.export import export_world
+
+        export_world(self, path, seconds, fps, **options)
+
     def record(self) -> None:
         """Begin to record: from now on every change from outside is kept."""
         self._engine.record()

@@ -1,0 +1,1 @@
+"""USD through `pxr`: a stage whose attributes are sampled only while they change."""

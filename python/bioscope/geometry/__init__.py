@@ -1,0 +1,1 @@
+"""Geometry of what is published: transforms, bent meshes, simple shapes."""
