@@ -31,18 +31,12 @@ impl Cell {
     }
 
     /// The point of the part shown at the middle of a pixel.
-    pub fn place(&self, column: u32, row: u32) -> [f32; 2] {
+    pub fn place(&self, column: usize, row: usize) -> [f32; 2] {
         let [left, top, right, bottom] = self.bounds;
-        let share = |low: f32, high: f32, pixel: u32| {
+        let share = |low: f32, high: f32, pixel: usize| {
             ((pixel as f32 + 0.5 - low - MARGIN) / (high - low - 2.0 * MARGIN)).clamp(0.0, 1.0)
         };
         [share(left, right, column), share(top, bottom, row)]
-    }
-
-    /// All its pixels, column and row.
-    pub fn pixels(&self) -> impl Iterator<Item = (u32, u32)> + use<> {
-        let [left, top, right, bottom] = self.bounds.map(|bound| bound as u32);
-        (top..bottom).flat_map(move |row| (left..right).map(move |column| (column, row)))
     }
 }
 

@@ -142,6 +142,18 @@ impl Fin {
         (height * (self.base[0].distance(self.base[1]) + height)).sqrt()
     }
 
+    /// Length of the rays from front to rear, as (place, length).
+    pub fn ray_lengths(&self, trunk: &Trunk) -> Vec<[f32; 2]> {
+        let grid = self.grid(trunk, 0.02, 2);
+        let lengths = grid.points.chunks(2).map(|ends| ends[0].distance(ends[1]));
+        grid.rays.iter().zip(lengths).map(|(&ray, length)| [ray, length]).collect()
+    }
+
+    /// Whether it is fanned out from the end of the trunk.
+    pub fn is_tail(&self) -> bool {
+        self.fanned
+    }
+
     /// Unit normal of the sheet.
     pub fn normal(&self) -> Vec3 {
         self.normal
@@ -184,7 +196,8 @@ impl Fin {
         let forward = if self.fanned {
             forward * (2.0 * ray - 1.0)
         } else {
-            forward * forward.z.signum()
+            // Towards the front ray.
+            forward * forward.dot(self.edge[0] - self.edge[self.edge.len() - 1]).signum()
         };
         let hump = 4.0 * share * (1.0 - share);
         let ripple = RIPPLE * reach.length() * (9.0 * ray + 2.0 * share).sin() * share * share;

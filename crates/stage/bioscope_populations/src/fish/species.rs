@@ -161,6 +161,9 @@ pub struct Line {
     /// How much it thins out towards its end, 0 to 1.
     #[serde(default)]
     pub taper: f32,
+    /// How much the skin in front of it catches the light, as at the free edge of a gill cover, 0 to 1.
+    #[serde(default)]
+    pub relief: f32,
 }
 
 /// The tail fin.
@@ -228,8 +231,8 @@ pub struct FinLook {
     pub outer: Option<Color>,
     /// Color of a seam along the free edge.
     pub seam: Option<Color>,
-    /// Share of the fin that the seam takes.
-    #[serde(default = "tenth")]
+    /// Width of the seam.
+    #[serde(default = "hundredth")]
     pub seam_width: f32,
     /// Number of rays.
     #[serde(default)]
@@ -340,6 +343,9 @@ pub struct Spots {
     pub strength: f32,
 }
 
+fn hundredth() -> f32 {
+    0.01
+}
 fn tenth() -> f32 {
     0.1
 }
@@ -375,6 +381,15 @@ impl FishSpecies {
         species.text = text.to_owned();
         check::check(&species, file)?;
         Ok(species)
+    }
+
+    /// The ready-made species of this name if it was read from this text, so that its form is built
+    /// only once; else the species that the text describes.
+    pub fn named_or_parsed(name: &str, text: &str) -> Result<Arc<Self>> {
+        match Self::named(name) {
+            Ok(species) if species.text() == text => Ok(species),
+            _ => Ok(Arc::new(Self::parse(text, name)?)),
+        }
     }
 
     /// The text it was read from: all that is needed to read it again.

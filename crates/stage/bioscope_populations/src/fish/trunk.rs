@@ -114,6 +114,14 @@ impl Trunk {
         Vec3::new(self.width.sample(at) * aside, middle + reach * above, ORIGIN - at)
     }
 
+    /// Body lengths along the skin per level at a place.
+    pub fn girth(&self, [at, level]: Place) -> f32 {
+        const STEP: f32 = 0.02;
+        let ends =
+            [level - STEP, level + STEP].map(|level| self.point([at, level.clamp(0.0, 1.0)]));
+        (ends[0].distance(ends[1]) / (2.0 * STEP)).max(1e-4)
+    }
+
     /// The outward normal of the left side at a place, and the direction up along the skin.
     pub fn frame(&self, [at, level]: Place) -> (Vec3, Vec3) {
         const STEP: f32 = 0.004;
@@ -121,7 +129,7 @@ impl Trunk {
         let level = level.clamp(STEP, 1.0 - STEP);
         let back = self.point([at + STEP, level]) - self.point([at - STEP, level]);
         let up = self.point([at, level + STEP]) - self.point([at, level - STEP]);
-        let normal = up.cross(back).normalize_or(Vec3::X);
+        let normal = back.cross(up).normalize_or(Vec3::X);
         (normal, up.normalize_or(Vec3::Y))
     }
 }

@@ -142,7 +142,11 @@ impl Checker {
 
     fn fins(&self, species: &FishSpecies) -> Result<()> {
         let end = species.outline.at[species.outline.at.len() - 1];
-        self.number("fins and pairs (their count)", (species.fins.len() + species.pairs.len()) as f32, [0.0, 15.0])?;
+        self.number(
+            "fins and pairs (their count)",
+            (species.fins.len() + species.pairs.len()) as f32,
+            [0.0, 15.0],
+        )?;
         if let Some(tail) = &species.tail {
             self.edge("tail", &tail.edge)?;
             self.look("tail", &tail.look)?;
@@ -189,7 +193,8 @@ impl Checker {
         self.number(&format!("{field}.width"), line.width, [0.0005, 0.5])?;
         self.number(&format!("{field}.strength"), line.strength, SHARE)?;
         self.number(&format!("{field}.softness"), line.softness, SHARE)?;
-        self.number(&format!("{field}.taper"), line.taper, SHARE)
+        self.number(&format!("{field}.taper"), line.taper, SHARE)?;
+        self.number(&format!("{field}.relief"), line.relief, SHARE)
     }
 
     fn pattern(&self, species: &FishSpecies) -> Result<()> {
