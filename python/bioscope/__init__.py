@@ -11,6 +11,20 @@ from bioscope._engine import VERSION as __version__
 from bioscope._engine import Batch, Camera, Material, Mesh, Points, Publication, Scene
 from bioscope._engine import View as WorldView
 from bioscope.errors import BioscopeError
+from bioscope.populations import (
+    Bubbles,
+    Corals,
+    Disk,
+    FishSchool,
+    Ground,
+    Habitat,
+    Plankton,
+    Props,
+    Rectangle,
+    RoamingFish,
+    Rocks,
+)
+from bioscope.senses import View, look, look_many
 from bioscope.world import (
     Current,
     Environment,
@@ -21,24 +35,40 @@ from bioscope.world import (
     Population,
     World,
 )
+from bioscope.worlds import load
 
 __all__ = [
     "Batch",
     "BioscopeError",
+    "Bubbles",
     "Camera",
+    "Corals",
     "Current",
+    "Disk",
     "Environment",
     "Event",
     "EventLog",
     "Field",
+    "FishSchool",
+    "Ground",
+    "Habitat",
     "Material",
     "Mesh",
     "Parameter",
+    "Plankton",
     "Points",
     "Population",
+    "Props",
     "Publication",
+    "Rectangle",
+    "RoamingFish",
+    "Rocks",
     "Scene",
+    "View",
     "World",
     "WorldView",
     "__version__",
+    "load",
+    "look",
+    "look_many",
 ]

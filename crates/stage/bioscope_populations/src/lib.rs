@@ -1,22 +1,46 @@
 //! The populations: assemblies of faculties that live in a world, one folder each.
 
+pub mod animals;
+pub mod catalog;
 pub mod drifters;
+pub mod fish;
 mod names;
 pub mod placement;
+pub mod scenery;
+
+use std::sync::Arc;
 
 use bioscope_world::{Population, Registry};
 
 /// A registry that knows every population and field of the engine.
 pub fn registry() -> Registry {
     let mut registry = Registry::default();
+    add_animals(&mut registry, Arc::default());
     add_drifters(&mut registry);
+    registry.add_population("fish_school", |bytes| boxed(fish::FishSchool::from_saved(bytes)));
+    add_scenery(&mut registry);
     registry
+}
+
+/// Teaches a registry to bring back [`Animals`](animals::Animals) whose parts these kinds know.
+pub fn add_animals(registry: &mut Registry, kinds: Arc<animals::Kinds>) {
+    registry.add_population("animals", move |bytes| {
+        boxed(animals::Animals::from_saved(bytes, kinds.clone()))
+    });
 }
 
 fn add_drifters(registry: &mut Registry) {
     use drifters::{Bubbles, Plankton};
     registry.add_population("plankton", |bytes| boxed(Plankton::from_saved(bytes)));
     registry.add_population("bubbles", |bytes| boxed(Bubbles::from_saved(bytes)));
+}
+
+fn add_scenery(registry: &mut Registry) {
+    use scenery::{Corals, Ground, Props, Rocks};
+    registry.add_population("ground", |bytes| boxed(Ground::from_saved(bytes)));
+    registry.add_population("rocks", |bytes| boxed(Rocks::from_saved(bytes)));
+    registry.add_population("corals", |bytes| boxed(Corals::from_saved(bytes)));
+    registry.add_population("props", |bytes| boxed(Props::from_saved(bytes)));
 }
 
 fn boxed<P: Population + 'static>(

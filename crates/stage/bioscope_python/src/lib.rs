@@ -41,7 +41,7 @@ mod _engine {
     #[pymodule_export]
     use super::png::encode_png;
     #[pymodule_export]
-    use super::population::Resident;
+    use super::population::{Resident, resident};
     #[pymodule_export]
     use super::publication::Publication;
     #[pymodule_export]

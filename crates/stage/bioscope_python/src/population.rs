@@ -18,11 +18,20 @@ pub struct Resident {
     population: Mutex<Option<Box<dyn Population>>>,
 }
 
-impl Resident {
-    pub fn new(population: impl Population + 'static) -> Self {
-        Self { population: Mutex::new(Some(Box::new(population))) }
-    }
+/// A population of this kind with these options (a JSON object) and parameters.
+#[pyfunction]
+pub fn resident(
+    py: Python<'_>,
+    kind: &str,
+    options: &str,
+    parameters: BTreeMap<String, f64>,
+) -> PyResult<Resident> {
+    let build = || bioscope_populations::catalog::population(kind, options, &parameters);
+    let population = py.detach(build).map_err(crate::error::to_python)?;
+    Ok(Resident { population: Mutex::new(Some(population)) })
+}
 
+impl Resident {
     /// Takes the population out; it can live in one world only.
     pub fn take(&self) -> Result<Box<dyn Population>> {
         let mut population = self.population.lock().unwrap_or_else(PoisonError::into_inner);

@@ -6,15 +6,14 @@ the colors remain as `displayColor`.
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
 from pxr import Gf, Sdf, UsdShade
 
 from bioscope import _engine
 from bioscope.export.names import Names
 from bioscope.export.palette import WHITE
+from bioscope.export.pictures import opaque, refraction
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -22,12 +21,6 @@ if TYPE_CHECKING:
     from bioscope._engine import Material
     from bioscope.export.balls import Grain
     from bioscope.export.palette import Color
-
-
-def refraction(specular: float) -> float:
-    """Return the index of refraction whose reflectance at normal incidence is `specular`."""
-    root = math.sqrt(min(max(specular, 0.0), 0.9))
-    return (1 + root) / (1 - root)
 
 
 class Looks:
@@ -111,10 +104,3 @@ class Looks:
         """Write the picture of the sky; return its asset."""
         (self._folder / "sky.png").write_bytes(_engine.encode_png(pixels))
         return Sdf.AssetPath(f"{self._base}/sky.png")
-
-
-def opaque(pixels: Any) -> Any:
-    """Return pixels (height, width, 4) without the opacity where it is full everywhere."""
-    if (pixels[..., 3] == 255).all():
-        return np.ascontiguousarray(pixels[..., :3])
-    return pixels

@@ -1,0 +1,109 @@
+//! Populations by kind and options, as bindings and files ask for them.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use bioscope_core::{Error, Result, Vec3};
+use bioscope_world::Population;
+use serde::Deserialize;
+use serde::de::DeserializeOwned;
+
+use crate::animals::{Animals, AnimalsOptions, Kinds, Place};
+use crate::drifters::{Bubbles, Plankton};
+use crate::fish::{self, FishSchool, FishSchoolOptions, FishSpecies};
+use crate::scenery::{Corals, Ground, Props, Rocks};
+
+/// The kinds that [`population`] makes.
+pub const KINDS: [&str; 8] =
+    ["bubbles", "corals", "fish_school", "ground", "plankton", "props", "roaming_fish", "rocks"];
+
+/// A population of this kind with these options (a JSON object with the field names of its options
+/// struct) and parameters.
+pub fn population(
+    kind: &str,
+    options: &str,
+    parameters: &BTreeMap<String, f64>,
+) -> Result<Box<dyn Population>> {
+    let mut population: Box<dyn Population> = match kind {
+        "bubbles" => Box::new(Bubbles::new(read(kind, options)?)?),
+        "corals" => Box::new(Corals::new(read(kind, options)?)?),
+        "fish_school" => Box::new(FishSchool::new(school(&read(kind, options)?)?)?),
+        "ground" => Box::new(Ground::new(read(kind, options)?)?),
+        "plankton" => Box::new(Plankton::new(read(kind, options)?)?),
+        "props" => Box::new(Props::new(read(kind, options)?)?),
+        "roaming_fish" => Box::new(roaming(&read(kind, options)?)?),
+        "rocks" => Box::new(Rocks::new(read(kind, options)?)?),
+        _ => {
+            let known = KINDS.map(str::to_owned).to_vec();
+            return Err(Error::Unknown { kind: "population", name: kind.to_owned(), known });
+        }
+    };
+    for (name, value) in parameters {
+        let Some(known) = population.parameters_mut() else {
+            return Err(Error::value(name, value, format!("no parameters; {kind} has none")));
+        };
+        known.set(name, *value)?;
+    }
+    Ok(population)
+}
+
+fn read<T: DeserializeOwned>(kind: &str, options: &str) -> Result<T> {
+    serde_json::from_str(options).map_err(|error| Error::format(kind, error.to_string()))
+}
+
+/// How a school of fish is asked for.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct School {
+    species: Species,
+    count: usize,
+    center: Vec3,
+    half: Option<Vec3>,
+    home: Option<Vec3>,
+}
+
+/// A species by name, or by name and the text of its file.
+#[derive(Deserialize)]
+#[serde(untagged)]
+enum Species {
+    Name(String),
+    File(String, String),
+}
+
+impl Species {
+    fn get(&self) -> Result<Arc<FishSpecies>> {
+        match self {
+            Self::Name(name) => FishSpecies::named(name),
+            Self::File(name, text) => Ok(Arc::new(FishSpecies::parse(text, name)?)),
+        }
+    }
+}
+
+fn school(asked: &School) -> Result<FishSchoolOptions> {
+    let mut options = FishSchoolOptions::new(asked.species.get()?, asked.count, asked.center);
+    options.half = asked.half.unwrap_or(options.half);
+    options.home = asked.home;
+    Ok(options)
+}
+
+/// How single fishes with minds of their own are asked for.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Roaming {
+    species: Species,
+    count: usize,
+    center: Vec3,
+    radius: f32,
+    home: Option<Vec3>,
+}
+
+fn roaming(asked: &Roaming) -> Result<Animals> {
+    let species = asked.species.get()?;
+    let look = fish::look(&species);
+    let animals = (0..asked.count)
+        .map(|_| fish::roaming(&species, &look, None))
+        .collect::<Result<Vec<_>>>()?;
+    let place = Some(Place { center: asked.center, radius: asked.radius });
+    let options = AnimalsOptions { place, home: asked.home, ..AnimalsOptions::default() };
+    Animals::new(animals, options, Arc::new(Kinds::default()))
+}

@@ -1,0 +1,20 @@
+"""The engine's populations: what can live in a world."""
+
+from bioscope.populations.drifters import Bubbles, Plankton
+from bioscope.populations.fish import FishSchool, RoamingFish
+from bioscope.populations.place import Disk, Habitat, Rectangle
+from bioscope.populations.scenery import Corals, Ground, Props, Rocks
+
+__all__ = [
+    "Bubbles",
+    "Corals",
+    "Disk",
+    "FishSchool",
+    "Ground",
+    "Habitat",
+    "Plankton",
+    "Props",
+    "Rectangle",
+    "RoamingFish",
+    "Rocks",
+]
