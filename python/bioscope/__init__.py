@@ -11,6 +11,7 @@ from bioscope._engine import VERSION as __version__
 from bioscope._engine import Batch, Camera, Material, Mesh, Points, Publication, Scene
 from bioscope._engine import View as WorldView
 from bioscope.errors import BioscopeError
+from bioscope.lsystem import Interpretation, LSystem, ModuleString, Turtle
 from bioscope.populations import (
     Bubbles,
     Corals,
@@ -54,6 +55,10 @@ __all__ = [
     "Habitat",
     "Material",
     "Mesh",
+    "LSystem",
+    "ModuleString",
+    "Interpretation",
+    "Turtle",
     "Parameter",
     "Plankton",
     "Points",

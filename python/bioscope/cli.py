@@ -100,6 +100,8 @@ def list_() -> None:
     """
     for name, summary in worlds.names().items():
         print(f"{name:16} {summary}")
+    for path in sorted(Path(worlds.__file__).parent.glob("*/plants/*.l")):
+        print(f"{path.stem:16} Plant model: {path}")
 
 
 @app.command()
@@ -202,6 +204,61 @@ def export(
 
     positive("seconds", seconds)
     export_world(opened(world, seed), output, seconds, positive("fps", fps), say=say)
+
+
+@app.command()
+def derive(
+    file: Annotated[Path, typer.Argument(metavar="FILE.l", help="A model.")],
+    steps: Annotated[int | None, typer.Option(min=0, help="As the file says, if not given.")] = None,
+    seed: Annotated[int, typer.Option(min=0, max=2**64 - 1)] = 1,
+    homomorphism: Annotated[
+        bool, typer.Option("--homomorphism", help="The string as the turtle reads it.")
+    ] = False,
+    form: Annotated[str, typer.Option("--format", help="string or json.")] = "string",
+) -> None:
+    """Print the string that an L-system derives.
+
+    Example: bioscope derive kelp.l --steps 8
+    """
+    from bioscope.lsystem import LSystem
+
+    if form not in ("string", "json"):
+        raise typer.BadParameter(f"{form}: expected string or json", param_hint="--format")
+    system = LSystem.read(file)
+    for warning in system.warnings:
+        say(warning)
+    string = system.derive(steps, seed)
+    string = string.appearance() if homomorphism else string
+    if form == "string":
+        print(string.string())
+        return
+    import msgspec
+
+    symbols = string.symbols
+    parts = {
+        "symbols": [symbols[kind] for kind in string.kinds],
+        "parameters": string.parameters.tolist(),
+    }
+    print(msgspec.json.encode(parts).decode())
+
+
+@app.command()
+def grow(
+    file: Annotated[Path, typer.Argument(metavar="FILE.l", help="A model.")],
+    output: Annotated[
+        Path, typer.Option("-o", "--output", metavar="FILE.glb|.obj|.usdc|.png", help="What to write.")
+    ],
+    steps: Annotated[int | None, typer.Option(min=0, help="As the file says, if not given.")] = None,
+    seed: Annotated[int, typer.Option(min=0, max=2**64 - 1)] = 1,
+) -> None:
+    """Grow a plant and write its shape.
+
+    Example: bioscope grow kelp.l -o kelp.glb --seed 3
+    """
+    from bioscope.lsystem.specimen import grow as grow_plant
+
+    mesh = grow_plant(file, output, steps, seed)
+    say(f"{output}: {len(mesh.triangles)} triangles")
 
 
 @app.command()

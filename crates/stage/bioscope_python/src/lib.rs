@@ -8,6 +8,7 @@ mod arrays;
 mod camera;
 mod error;
 mod field;
+mod lsystem;
 mod material;
 mod mesh;
 mod png;
@@ -34,6 +35,8 @@ mod _engine {
     use super::camera::Camera;
     #[pymodule_export]
     use super::field::{Field, current};
+    #[pymodule_export]
+    use super::lsystem::{Interpretation, LSystem, ModuleString, interpret};
     #[pymodule_export]
     use super::material::Material;
     #[pymodule_export]

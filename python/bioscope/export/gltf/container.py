@@ -30,6 +30,8 @@ class Container:
         self.lists: dict[str, list[Any]] = {}
         self.extensions: set[str] = set()
         """Extensions used; none is required."""
+        self.shared: dict[str, Any] = {}
+        """What extensions say of the whole file."""
         self._blocks: list[bytes] = []
         self._length = 0
 
@@ -97,6 +99,8 @@ class Container:
             document["buffers"] = [{"byteLength": self._length}]
         if self.extensions:
             document["extensionsUsed"] = sorted(self.extensions)
+        if self.shared:
+            document["extensions"] = self.shared
         text = msgspec.json.encode(document)
         text += b" " * (-len(text) % 4)
         total = 12 + 8 + len(text) + (8 + self._length if self._length else 0)

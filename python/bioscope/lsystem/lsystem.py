@@ -1,0 +1,107 @@
+"""L-systems and their strings."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from bioscope import _engine
+
+if TYPE_CHECKING:
+    from os import PathLike
+
+    import numpy as np
+    from numpy.typing import NDArray
+
+
+class LSystem:
+    """A parametric, stochastic, bracketed, conditional and context-sensitive L-system.
+
+    P. Prusinkiewicz and A. Lindenmayer, "The Algorithmic Beauty of Plants", 1990; the notation of cpfg.
+
+    Parameters
+    ----------
+    source
+        The text of the model.
+    file
+        What errors call it.
+
+    Raises
+    ------
+    FormatError
+        With file, line, column, the offending line and what was expected, for everything that is wrong.
+
+    Examples
+    --------
+    >>> import bioscope as bio
+    >>> algae = bio.LSystem("lsystem: algae\\naxiom: A\\nA --> AB\\nB --> A\\nendlsystem\\n")
+    >>> algae.derive(steps=4).string()
+    'ABAABABA'
+    """
+
+    def __init__(self, source: str, file: str = "<text>") -> None:
+        self._engine = _engine.LSystem(source, file)
+
+    @classmethod
+    def read(cls, path: str | PathLike[str]) -> LSystem:
+        """Read a model from a file."""
+        return cls(Path(path).read_text(encoding="utf-8", errors="replace"), str(path))
+
+    @property
+    def steps(self) -> int:
+        """Number of steps after which the model is complete, as its file says; 0 if it does not."""
+        return self._engine.steps
+
+    @property
+    def constants(self) -> dict[str, float]:
+        """The numbers that the file defines, by name."""
+        return dict(self._engine.constants)
+
+    @property
+    def warnings(self) -> list[str]:
+        """What is doubtful in the file but not wrong."""
+        return self._engine.warnings
+
+    def derive(self, steps: int | None = None, seed: int = 1) -> ModuleString:
+        """Return the string after `steps` steps (as many as the file says, if not given).
+
+        Raises
+        ------
+        FormatError
+            If a production cannot be evaluated, or the string outgrows the limits (200 million modules,
+            2 GiB); the message names the production.
+        """
+        return ModuleString(self._engine.derive(self.steps if steps is None else steps, seed))
+
+
+class ModuleString:
+    """A string of modules, each a symbol with numbers."""
+
+    def __init__(self, engine: _engine.ModuleString) -> None:
+        self._engine = engine
+
+    def __len__(self) -> int:
+        return len(self._engine)
+
+    def string(self) -> str:
+        """Return the canonical text: symbols with their numbers in parentheses."""
+        return self._engine.string()
+
+    def appearance(self) -> ModuleString:
+        """Return the string after the model's homomorphism, as the turtle reads it."""
+        return ModuleString(self._engine.appearance())
+
+    @property
+    def symbols(self) -> list[str]:
+        """The alphabet; `kinds` holds indices into it."""
+        return self._engine.symbols
+
+    @property
+    def kinds(self) -> NDArray[np.uint8]:
+        """Symbol number of each module (n,)."""
+        return self._engine.kinds
+
+    @property
+    def parameters(self) -> NDArray[np.float32]:
+        """All numbers of all modules, one after the other."""
+        return self._engine.parameters
