@@ -99,6 +99,8 @@ pub(crate) enum Fault {
 /// What an expression sees while it is evaluated.
 pub(crate) struct Bindings {
     pub slots: [f64; SLOT_LIMIT],
+    /// Kept here so that it need not be cleared for each expression.
+    stack: [f64; STACK_LIMIT],
     pub step: f64,
     pub length: f64,
     /// The first thing that went wrong since it was last cleared.
@@ -114,6 +116,7 @@ impl Bindings {
     pub fn new(seed: u64, length: f64) -> Self {
         Self {
             slots: [0.0; SLOT_LIMIT],
+            stack: [0.0; STACK_LIMIT],
             step: 0.0,
             length,
             fault: None,
@@ -132,6 +135,12 @@ impl Bindings {
         self.tick = tick;
         self.production = production;
         self.random = None;
+    }
+
+    #[inline]
+    fn push(&mut self, top: &mut usize, value: f64) {
+        self.stack[*top % STACK_LIMIT] = value;
+        *top += 1;
     }
 
     fn random(&mut self) -> &mut Random {
@@ -171,58 +180,49 @@ impl Expression {
 
 /// Runs a program; the value on top of the stack at its end, 0 if there is none.
 pub(crate) fn run(program: &[Instruction], bindings: &mut Bindings) -> f64 {
-    let mut stack = [0.0; STACK_LIMIT];
     let mut top = 0;
     let mut next = 0;
     while let Some(&instruction) = program.get(next) {
         next += 1;
         match instruction {
-            Instruction::Constant(value) => push(&mut stack, &mut top, value),
+            Instruction::Constant(value) => bindings.push(&mut top, value),
             Instruction::Load(slot) => {
-                push(&mut stack, &mut top, bindings.slots[slot as usize % SLOT_LIMIT]);
+                bindings.push(&mut top, bindings.slots[slot as usize % SLOT_LIMIT]);
             }
             Instruction::Store(slot) => {
                 top -= 1;
-                bindings.slots[slot as usize % SLOT_LIMIT] = stack[top];
+                bindings.slots[slot as usize % SLOT_LIMIT] = bindings.stack[top];
             }
-            Instruction::Step => push(&mut stack, &mut top, bindings.step),
-            Instruction::Length => push(&mut stack, &mut top, bindings.length),
+            Instruction::Step => bindings.push(&mut top, bindings.step),
+            Instruction::Length => bindings.push(&mut top, bindings.length),
             Instruction::Unary(operation) => {
-                stack[top - 1] = unary(operation, stack[top - 1]);
+                bindings.stack[top - 1] = unary(operation, bindings.stack[top - 1]);
             }
             Instruction::Binary(operation) => {
                 top -= 1;
-                let (a, b) = (stack[top - 1], stack[top]);
-                stack[top - 1] = binary(operation, a, b).unwrap_or_else(|fault| {
+                let (a, b) = (bindings.stack[top - 1], bindings.stack[top]);
+                bindings.stack[top - 1] = binary(operation, a, b).unwrap_or_else(|fault| {
                     bindings.fault.get_or_insert(fault);
                     f64::NAN
                 });
             }
             Instruction::Uniform => {
-                stack[top - 1] *= f64::from(bindings.random().uniform());
+                bindings.stack[top - 1] *= f64::from(bindings.random().uniform());
             }
             Instruction::Normal => {
                 top -= 1;
-                stack[top - 1] += stack[top] * f64::from(bindings.random().normal());
+                let deviation = bindings.stack[top] * f64::from(bindings.random().normal());
+                bindings.stack[top - 1] += deviation;
             }
             Instruction::Jump(distance) => next += distance as usize,
             Instruction::JumpIfFalse(distance) => {
                 top -= 1;
-                if !is_true(stack[top]) {
-                    next += distance as usize;
-                }
+                next += if is_true(bindings.stack[top]) { 0 } else { distance as usize };
             }
-            Instruction::And(distance) => {
-                if is_true(stack[top - 1]) {
-                    top -= 1;
-                } else {
-                    stack[top - 1] = 0.0;
-                    next += distance as usize;
-                }
-            }
-            Instruction::Or(distance) => {
-                if is_true(stack[top - 1]) {
-                    stack[top - 1] = 1.0;
+            Instruction::And(distance) | Instruction::Or(distance) => {
+                let decided = matches!(instruction, Instruction::Or(_));
+                if is_true(bindings.stack[top - 1]) == decided {
+                    bindings.stack[top - 1] = truth(decided);
                     next += distance as usize;
                 } else {
                     top -= 1;
@@ -230,13 +230,7 @@ pub(crate) fn run(program: &[Instruction], bindings: &mut Bindings) -> f64 {
             }
         }
     }
-    if top > 0 { stack[top - 1] } else { 0.0 }
-}
-
-#[inline]
-fn push(stack: &mut [f64; STACK_LIMIT], top: &mut usize, value: f64) {
-    stack[*top % STACK_LIMIT] = value;
-    *top += 1;
+    if top > 0 { bindings.stack[top - 1] } else { 0.0 }
 }
 
 /// Whether a number counts as true: neither zero nor not-a-number.

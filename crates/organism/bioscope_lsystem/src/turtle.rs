@@ -20,7 +20,7 @@
 //! | `~x(s)` `~x(a,b,c)` | a surface scaled by s, or by a to the left, b ahead and c up |
 //! | `@O(r)` | a ball of radius r |
 //! | `@#(n)` | the cross-section of what is drawn: 0 round, 1 ribbon, 2 ruffled ribbon |
-//! | `@Gs` `@Ge` | begins, ends an axis |
+//! | `@Gs` `@Ge` | begins (with the present width and color), ends an axis |
 //! | `@Td(x,y,z)` `@Ts(e)` | the direction of the tropism, how much it turns the heading |
 //!
 //! Other symbols and further parameters mean nothing to it.
@@ -219,6 +219,8 @@ struct State {
     axis: Option<u32>,
     /// Where the next axis begins on another.
     anchor: Option<Anchor>,
+    /// Width and color with which the next axis begins, if not with those of its first segment.
+    beginning: Option<(f32, i32)>,
 }
 
 /// Interprets strings of modules.
@@ -260,6 +262,7 @@ impl<'a> Turtle<'a> {
             depth: 0,
             axis: None,
             anchor: None,
+            beginning: None,
         };
         Self {
             options,
@@ -310,7 +313,11 @@ impl<'a> Turtle<'a> {
             Command::Surface(name) => self.surface(name, parameters),
             Command::Ball => self.ball(first.unwrap_or(self.state.width / 2.0)),
             Command::Contour => self.contour(first),
-            Command::BeginAxis | Command::EndAxis => self.leave_axis(),
+            Command::BeginAxis => {
+                self.leave_axis();
+                self.state.beginning = Some((self.state.width, self.state.color));
+            }
+            Command::EndAxis => self.leave_axis(),
             Command::TropismDirection => {
                 let direction = vector(parameters, 0).unwrap_or(self.state.tropism);
                 self.state.tropism = direction.normalize_or_zero();
@@ -344,6 +351,7 @@ impl<'a> Turtle<'a> {
     fn leave_axis(&mut self) {
         self.state.anchor = self.anchor();
         self.state.axis = None;
+        self.state.beginning = None;
     }
 
     /// The place of the turtle on the plant.
@@ -362,8 +370,11 @@ impl<'a> Turtle<'a> {
         let radius = state.width / 2.0;
         let last = state.axis.map(|axis| self.out.axes[axis as usize].last);
         let last = last.map(|index| &self.out.segments[index as usize]);
-        let start_radius = last.map_or(radius, |segment| segment.end_radius);
-        let start_color = last.map_or(state.color, |segment| segment.color);
+        let (start_radius, start_color) = match (last, state.beginning.take()) {
+            (Some(segment), _) => (segment.end_radius, segment.color),
+            (None, Some((width, color))) => (width / 2.0, color),
+            (None, None) => (radius, state.color),
+        };
         let index = self.out.segments.len() as u32;
         let axis = state.axis.unwrap_or_else(|| {
             self.out.axes.push(Axis {

@@ -226,7 +226,11 @@ impl Builder<'_> {
             };
             let first = self.mesh.positions.len() as u32;
             for column in 0..columns {
-                let side = if columns == 1 { 0.0 } else { 2.0 * column as f32 / (columns - 1) as f32 - 1.0 };
+                let side = if columns == 1 {
+                    0.0
+                } else {
+                    2.0 * column as f32 / (columns - 1) as f32 - 1.0
+                };
                 let lift = ruffle * side.abs() * math::sin(wave + side * 0.9);
                 self.vertex(Vertex {
                     position: node.position + (left * side + up * lift) * node.radius,

@@ -15,7 +15,8 @@ pub(super) struct Layout {
 impl Layout {
     pub fn new(interpretation: &Interpretation) -> Self {
         let (list, starts) = interpretation.segments_by_axis();
-        let mut layout = Self { arcs: Vec::with_capacity(list.len()), list, starts, bases: Vec::new() };
+        let mut layout =
+            Self { arcs: Vec::with_capacity(list.len()), list, starts, bases: Vec::new() };
         for (number, axis) in interpretation.axes.iter().enumerate() {
             // Parents come before their children.
             let base = axis.parent.map_or(0.0, |anchor| layout.path(anchor));

@@ -35,9 +35,12 @@ impl Builder<'_> {
         let normal = polygon_normal(corners);
         let across = perpendicular(corners[1] - corners[0], normal);
         let over = normal.cross(across);
-        let flat: Vec<Vec2> = corners.iter().map(|corner| Vec2::new(corner.dot(across), corner.dot(over))).collect();
+        let flat: Vec<Vec2> =
+            corners.iter().map(|corner| Vec2::new(corner.dot(across), corner.dot(over))).collect();
         let low = flat.iter().copied().fold(Vec2::INFINITY, Vec2::min);
-        let size = (flat.iter().copied().fold(Vec2::NEG_INFINITY, Vec2::max) - low).max_element().max(1e-6);
+        let size = (flat.iter().copied().fold(Vec2::NEG_INFINITY, Vec2::max) - low)
+            .max_element()
+            .max(1e-6);
         let first = self.mesh.positions.len() as u32;
         for (&position, &point) in corners.iter().zip(&flat) {
             let uv = ((point - low) / size).to_array();
@@ -88,7 +91,8 @@ impl Builder<'_> {
         let node = |ring: u32| {
             // From just above the lower pole to just below the upper one.
             let angle = math::PI * (ring as f32 + 0.35) / (RINGS as f32 - 0.3);
-            let (height, radius) = (-math::cos(angle) * ball.radius, math::sin(angle) * ball.radius);
+            let (height, radius) =
+                (-math::cos(angle) * ball.radius, math::sin(angle) * ball.radius);
             Node {
                 position: ball.center + ball.axis * height,
                 radius: radius.abs(),
@@ -109,7 +113,8 @@ impl Builder<'_> {
 /// Mean normal of a polygon, by Newell's sum over its edges.
 fn polygon_normal(corners: &[Vec3]) -> Vec3 {
     let next = corners.iter().cycle().skip(1);
-    let sum: Vec3 = corners.iter().zip(next).map(|(a, b)| (*a - corners[0]).cross(*b - corners[0])).sum();
+    let sum: Vec3 =
+        corners.iter().zip(next).map(|(a, b)| (*a - corners[0]).cross(*b - corners[0])).sum();
     sum.normalize_or(Vec3::Y)
 }
 
@@ -120,7 +125,9 @@ fn triangulate(points: &[Vec2]) -> Vec<[u32; 3]> {
     let at = |index: u32| points[index as usize];
     while left.len() > 3 && left.len() <= EAR_LIMIT {
         let count = left.len();
-        let corner = |middle: usize| [left[(middle + count - 1) % count], left[middle], left[(middle + 1) % count]];
+        let corner = |middle: usize| {
+            [left[(middle + count - 1) % count], left[middle], left[(middle + 1) % count]]
+        };
         let is_ear = |&middle: &usize| {
             let [a, b, c] = corner(middle);
             turn(at(a), at(b), at(c)) > 0.0

@@ -150,7 +150,11 @@ impl Skeleton {
         let mut parent = bones.last().map_or(0, |&(joint, _)| joint);
         for number in 0..count {
             let path = chain.base() + chain.length() * number as f32 / count as f32;
-            let flexibility = if chain.tip() > 0.0 { (path + chain.length() / count as f32) / chain.tip() } else { 0.0 };
+            let flexibility = if chain.tip() > 0.0 {
+                (path + chain.length() / count as f32) / chain.tip()
+            } else {
+                0.0
+            };
             let name = format!("chain{name}_{number}");
             parent = self.joint(&name, Some(parent), chain.at(path), path, flexibility);
             bones.push((parent, path));
@@ -287,9 +291,8 @@ impl Ways {
                 let near = chosen.iter().map(|&other| self.tips[way].distance(self.tips[other]));
                 near.fold(f32::INFINITY, f32::min)
             };
-            let best = (0..order.len()).max_by(|&a, &b| {
-                apart(order[a]).total_cmp(&apart(order[b])).then(b.cmp(&a))
-            });
+            let best = (0..order.len())
+                .max_by(|&a, &b| apart(order[a]).total_cmp(&apart(order[b])).then(b.cmp(&a)));
             chosen.push(order.remove(best.unwrap_or(0)));
         }
         chosen.sort_unstable();
@@ -321,7 +324,11 @@ impl Ways {
                 }
             }
         }
-        Chain { points, parent: ancestor(axes[0], chain_of_axis, interpretation), bones: Vec::new() }
+        Chain {
+            points,
+            parent: ancestor(axes[0], chain_of_axis, interpretation),
+            bones: Vec::new(),
+        }
     }
 }
 
@@ -329,11 +336,7 @@ impl Ways {
 const CANDIDATE_LIMIT: usize = 200;
 
 /// The nearest chain among those of the axes that an axis grows out of.
-fn ancestor(
-    axis: u32,
-    chain_of_axis: &[usize],
-    interpretation: &Interpretation,
-) -> Option<usize> {
+fn ancestor(axis: u32, chain_of_axis: &[usize], interpretation: &Interpretation) -> Option<usize> {
     let mut parent = interpretation.axes[axis as usize].parent;
     while let Some(anchor) = parent {
         let chain = chain_of_axis[anchor.axis as usize];
