@@ -28,6 +28,7 @@ export class Keeping {
 
   saveScreenshot(): void {
     const { stage, loop, notices } = this.viewer;
+    loop.drawFinely(true);
     loop.drawAgain();
     stage.renderer.domElement.toBlob((content) => {
       if (!content)
@@ -38,6 +39,7 @@ export class Keeping {
         });
       download(`${this.fileName()}.png`, content);
     }, "image/png");
+    loop.drawFinely(false);
   }
 
   saveSnapshot(name: string, bytes: Uint8Array): void {
@@ -127,9 +129,11 @@ export class Keeping {
         }),
     });
     controls.mark("video", true);
+    loop.drawFinely(true);
     const made = await this.video.record().catch((error: Error) => error);
     this.video = null;
     controls.mark("video", false);
+    loop.drawFinely(false);
     notices.stand("video", null);
     if (wasRunning) session.send({ do: "play" });
     this.finishVideo(made);
@@ -171,7 +175,7 @@ export class Keeping {
     const first = cameras.names.length === 4 && cameras.name === "free" && this.viewer.loop.pictures === 0;
     const { shared } = this;
     this.shared = null;
-    cameras.offer(hello.cameras, first && !shared);
+    cameras.offer(hello, first && !shared);
     if (!shared) return;
     history.replaceState(null, "", location.pathname + location.search);
     if (shared.world !== hello.world) {

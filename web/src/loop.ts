@@ -1,5 +1,6 @@
 import type { Frame, Layout } from "./messages/types";
 import { type Moment, PlayoutQueue } from "./playout/queue";
+import { isSoftware } from "./scene/graphics";
 import { QUALITIES, QualityGovernor } from "./scene/quality";
 import type { Viewer } from "./viewer";
 
@@ -14,23 +15,29 @@ export class FrameLoop {
   frame: Frame | null = null;
   /** Pictures drawn. */
   pictures = 0;
-  readonly governor = new QualityGovernor();
+  readonly governor: QualityGovernor;
   private readonly queue = new PlayoutQueue();
-  private readonly layouts = new Map<number, Layout>();
+  /** The layout received last. */
+  private layout: Layout | null = null;
+  /** The layout that each frame belongs to. */
+  private readonly layouts = new WeakMap<Frame, Layout>();
   private readonly observer: ResizeObserver;
   private request = 0;
   private lastTime = 0;
   private lastPanels = 0;
   private lastReconnect = 0;
-  private unseen: number | null = null;
+  private readonly unseen: number[] = [];
+  private fine = false;
+  private visible = false;
   private size = { width: 1, height: 1 };
 
   constructor(private readonly viewer: Viewer) {
-    const { session } = viewer;
+    const { session, stage } = viewer;
+    this.governor = new QualityGovernor(isSoftware(stage.renderer));
     this.observer = new ResizeObserver(() => this.resize());
-    session.on("hello", () => this.begin());
+    session.on("hello", () => this.queue.clear());
     session.on("layout", (layout) => {
-      this.layouts.set(layout.revision, layout);
+      this.layout = layout;
       viewer.stage.assets.settle();
     });
     session.on("frame", (frame) => this.take(frame));
@@ -56,20 +63,33 @@ export class FrameLoop {
     this.show({ frame, blend: 1, fresh: true, cut }, seconds);
   }
 
+  /** Draws as finely as can be, whatever it costs, for a picture or video to keep. */
+  drawFinely(on: boolean): void {
+    this.fine = on;
+    this.resize();
+  }
+
   /** Draws the picture on the screen again, so that it can be read from the canvas. */
   drawAgain(): void {
     this.viewer.stage.render(this.viewer.cameras.camera);
   }
 
-  private begin(): void {
+  /** Forgets everything: a new connection brings all anew. */
+  begin(): void {
     this.queue.clear();
-    this.layouts.clear();
+    this.layout = null;
+    this.unseen.length = 0;
     this.viewer.stage.clear();
     this.frame = null;
   }
 
   private take(frame: Frame): void {
-    this.unseen = frame.tick;
+    this.unseen.push(frame.tick);
+    if (frame.layout !== this.layout?.revision) {
+      this.missing(new Error("a layout"));
+      return;
+    }
+    this.layouts.set(frame, this.layout);
     if (this.viewer.keeping.video) {
       this.acknowledge();
       this.viewer.keeping.video.take(frame);
@@ -85,18 +105,17 @@ export class FrameLoop {
     const moment = this.queue.at(now);
     if (!moment) return;
     this.show(moment, Math.min(0.1, passed / 1000));
-    if (document.visibilityState === "visible" && this.governor.note(passed)) this.lowerQuality();
+    if (this.visible && this.governor.note(passed)) this.lowerQuality();
+    this.visible = document.visibilityState === "visible";
     if (now - this.lastPanels > PANEL_PAUSE) {
       this.lastPanels = now;
       this.viewer.refreshPanels();
     }
   }
 
-  /** Tells the world that its last frame has arrived where pictures are made. */
+  /** Tells the world that its frames have arrived where pictures are made, each once. */
   private acknowledge(): void {
-    if (this.unseen === null) return;
-    this.viewer.session.send({ do: "seen", tick: this.unseen });
-    this.unseen = null;
+    for (const tick of this.unseen.splice(0)) this.viewer.session.send({ do: "seen", tick });
   }
 
   private show(moment: Moment, dt: number): void {
@@ -117,13 +136,14 @@ export class FrameLoop {
   /** Takes a new frame to the stage, and its layout before it; says whether it can be drawn. */
   private advance({ frame, cut }: Moment): boolean {
     const { stage, selection, cameras } = this.viewer;
-    if (frame.layout !== stage.layout?.revision) {
-      const layout = this.layouts.get(frame.layout);
-      if (!layout) return false;
-      for (const revision of this.layouts.keys()) if (revision < frame.layout) this.layouts.delete(revision);
+    const layout = this.layouts.get(frame);
+    if (!layout) return false;
+    if (layout !== stage.layout) {
       const first = stage.layout === null;
+      const coming = new Set(this.queue.coming.flatMap((one) => this.layouts.get(one) ?? []));
+      if (this.layout) coming.add(this.layout);
       try {
-        stage.setLayout(layout, [...this.layouts.values()]);
+        stage.setLayout(layout, [...coming]);
       } catch (error) {
         this.missing(error as Error);
         return false;
@@ -170,7 +190,8 @@ export class FrameLoop {
     const { clientWidth: width, clientHeight: height } = this.viewer.root;
     if (width === 0 || height === 0) return;
     this.size = { width, height };
-    this.viewer.stage.resize(width, height, window.devicePixelRatio, QUALITIES[this.governor.level]);
+    const quality = QUALITIES[this.fine ? 0 : this.governor.level];
+    this.viewer.stage.resize(width, height, window.devicePixelRatio, quality);
     this.viewer.marks.resize(width, height);
   }
 

@@ -1,5 +1,5 @@
 import { PerspectiveCamera, Quaternion, Vector3 } from "three";
-import type { Rig } from "../messages/types";
+import type { Hello } from "../messages/types";
 import { EyeCamera } from "./eye";
 import { FilmCamera } from "./film";
 import { FIELD_OF_VIEW, FollowCamera, FreeCamera, HandControls, TopCamera } from "./orbit";
@@ -41,10 +41,10 @@ export class Cameras {
   }
 
   /** Takes the world's rigs; starts filming with them if there are any and nothing was chosen. */
-  offer(rigs: Rig[], start: boolean): void {
+  offer({ cameras: rigs, shots }: Hello, start: boolean): void {
     const own = rigs.map((rig) => new RigCamera(rig));
     this.modes = [...this.always, ...own];
-    const film = new FilmCamera(rigs);
+    const film = new FilmCamera(rigs, shots);
     if (rigs.length > 0) this.modes.push(film);
     const again = this.modes.find((mode) => mode.name === this.mode.name);
     const next = start && rigs.length > 0 ? film : (again ?? this.always[0]);

@@ -4,7 +4,7 @@
 export type Setting = [string, string, number];
 
 export type Command =
-  | { do: "join"; version: number | string; token?: string }
+  | { do: "join"; version: string; token?: string }
   | { do: "play" }
   | { do: "pause" }
   | { do: "step"; ticks: number }

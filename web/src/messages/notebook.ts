@@ -1,7 +1,7 @@
 import type { Command } from "./commands";
 import { decodeMessage } from "./decode";
 import type { Listener, Transport } from "./transport";
-import { STREAM_VERSION } from "./types";
+import { VERSION } from "./types";
 
 /** The part of an anywidget model that the page uses. */
 export interface WidgetModel {
@@ -28,7 +28,8 @@ export class Notebook implements Transport {
   }
 
   reconnect(): void {
-    this.send({ do: "join", version: STREAM_VERSION });
+    this.listener?.link({ state: "connecting" });
+    this.send({ do: "join", version: VERSION });
     this.listener?.link({ state: "open" });
   }
 

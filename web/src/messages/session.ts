@@ -52,6 +52,7 @@ export class Session implements Listener {
 
   link(state: LinkState): void {
     this.state = state;
+    if (state.state === "connecting") this.hello = null;
     this.linked(state);
   }
 

@@ -1,7 +1,7 @@
 import type { Command } from "./commands";
 import { decodeMessage } from "./decode";
 import type { Listener, Transport } from "./transport";
-import { STREAM_VERSION } from "./types";
+import { VERSION } from "./types";
 
 /** Shortest and longest wait between attempts to connect, seconds. */
 const FIRST_WAIT = 0.5;
@@ -78,7 +78,7 @@ export class Socket implements Transport {
     this.socket = socket;
     socket.binaryType = "arraybuffer";
     socket.onopen = () => {
-      this.send({ do: "join", version: STREAM_VERSION, ...(this.token ? { token: this.token } : {}) });
+      this.send({ do: "join", version: VERSION, ...(this.token ? { token: this.token } : {}) });
       this.listener?.link({ state: "open" });
     };
     socket.onmessage = (event) => this.receive(event.data);

@@ -6,8 +6,10 @@ export type Point = [number, number, number];
 /** Least and greatest corner: x, y, z, X, Y, Z. */
 export type Box = [number, number, number, number, number, number];
 
-/** Version of the stream that this page speaks. */
-export const STREAM_VERSION = 1;
+declare const __VERSION__: string;
+
+/** Version of this page; the world's must be the same. */
+export const VERSION: string = __VERSION__;
 
 export interface Rig {
   name: string;
@@ -28,13 +30,15 @@ export interface Rig {
 
 export interface Hello {
   type: "hello";
-  version: number | string;
+  version: string;
   world: string;
   title: string;
   seed: number;
   /** Seconds per tick. */
   dt: number;
   cameras: Rig[];
+  /** The world's shot list: names of cameras and the seconds that each is held. */
+  shots?: [string, number][];
   page: string[];
 }
 

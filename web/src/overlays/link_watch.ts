@@ -49,7 +49,8 @@ export class LinkWatch {
   }
 
   private linked(state: LinkState): void {
-    const { notices, session } = this.viewer;
+    const { notices, session, loop } = this.viewer;
+    if (state.state === "connecting") loop.begin();
     if (state.state === "open") notices.stand("link", null);
     if (state.state === "lost") {
       const again = `Trying again in ${state.retry < 1 ? "a moment" : `${Math.round(state.retry)} s`}.`;

@@ -11,7 +11,10 @@ export class RestartDialog {
     ariaLabel: "seed",
   });
 
+  private readonly another = element("button", { type: "button", textContent: "with another" });
+
   constructor(private readonly session: Session) {
+    this.another.onclick = () => this.restart(randomSeed());
     const form = element(
       "form",
       { class: "bio-card" },
@@ -44,6 +47,9 @@ export class RestartDialog {
 
   open(): void {
     this.seed.value = String(this.session.hello?.seed ?? "");
+    const free = this.session.hello?.page.includes("restart") ?? true;
+    this.seed.disabled = !free; // a world made by a program knows no other seed
+    this.another.hidden = !free;
     this.element.hidden = false;
     this.seed.focus();
     this.seed.select();

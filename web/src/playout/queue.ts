@@ -54,6 +54,11 @@ export class PlayoutQueue {
     this.current = null;
   }
 
+  /** Frames received that have not been drawn. */
+  get coming(): Frame[] {
+    return this.waiting.map(({ frame }) => frame);
+  }
+
   /** What to draw at `now` milliseconds; null before the first frame. */
   at(now: number): Moment | null {
     const playhead = now - DELAY * this.interval;

@@ -33,6 +33,9 @@ export class Assets {
   /** Names of assets that came after the latest layout: their first use is still ahead. */
   private fresh = new Set<string>();
 
+  /** `anisotropy`: samples along the long side of a slanted texel. */
+  constructor(private readonly anisotropy: number) {}
+
   /** How many of each are held. */
   get count(): { meshes: number; materials: number; textures: number } {
     return { meshes: this.meshes.size, materials: this.materials.size, textures: this.pictures.size };
@@ -62,7 +65,7 @@ export class Assets {
 
   addTexture(message: TextureMessage): void {
     this.pictures.get(message.key)?.texture.dispose();
-    const picture: Picture = { texture: emptyTexture(), image: null };
+    const picture: Picture = { texture: emptyTexture(this.anisotropy), image: null };
     this.pictures.set(message.key, picture);
     this.fresh.add(`texture:${message.key}`);
     const file = new Blob([message.png.slice()], { type: "image/png" });
@@ -140,14 +143,14 @@ function extent(positions: Float32Array): Pick<MeshAsset, "radius" | "box"> {
 }
 
 /** A texture whose picture is still being unpacked: one white texel. */
-function emptyTexture(): Texture {
+function emptyTexture(anisotropy: number): Texture {
   const image = new ImageData(new Uint8ClampedArray([255, 255, 255, 255]), 1, 1);
   const texture = new Texture(image);
   texture.colorSpace = SRGBColorSpace;
   texture.wrapS = texture.wrapT = RepeatWrapping;
   texture.minFilter = LinearMipmapLinearFilter;
   texture.magFilter = LinearFilter;
-  texture.anisotropy = 4;
+  texture.anisotropy = anisotropy;
   texture.flipY = false;
   texture.needsUpdate = true;
   return texture;

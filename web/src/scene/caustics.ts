@@ -20,14 +20,13 @@ import {
 } from "three";
 import { WAVES } from "./shaders/waves";
 
-/** Quads along one side of the sheet of light, and its overhang on each side of the tile. */
-const QUADS = 110;
-const OVERHANG = 0.04;
+/** Overhang of the sheet of light on each side of the tile. */
+const OVERHANG = 0.1;
 
 const VERTEX = /* glsl */ `
 ${WAVES}
 uniform float uMoment;
-const float THROW = 0.16 / 5.0;
+const float THROW = 0.55 / 5.0; // tiles per unit of slope: far enough for folds, the bright lines of the net
 out vec2 vEntry;
 out vec2 vLanding;
 void main() {
@@ -58,7 +57,8 @@ export class Caustics {
   private readonly sheet: Mesh<BufferGeometry, ShaderMaterial>;
   private readonly camera = new OrthographicCamera(-1, 1, 1, -1, 0, 1);
 
-  constructor(size = 256) {
+  /** Texels along one side of the tile; the sheet has half as many quads. */
+  constructor(size: number) {
     this.target = new WebGLRenderTarget(size, size, {
       type: HalfFloatType,
       format: RedFormat,
@@ -83,7 +83,7 @@ export class Caustics {
       blendSrc: OneFactor,
       blendDst: OneFactor,
     });
-    this.sheet = new Mesh(sheetGeometry(), material);
+    this.sheet = new Mesh(sheetGeometry(size / 2), material);
     this.sheet.frustumCulled = false;
   }
 
@@ -107,16 +107,16 @@ export class Caustics {
 }
 
 /** A grid over the tile and a little more on each side, so that light that crosses the border is not missed. */
-function sheetGeometry(): BufferGeometry {
-  const side = QUADS + 1;
+function sheetGeometry(quads: number): BufferGeometry {
+  const side = quads + 1;
   const positions = new Float32Array(3 * side * side);
   const index: number[] = [];
   for (let row = 0; row < side; row++) {
     for (let column = 0; column < side; column++) {
       const at = row * side + column;
-      positions[3 * at] = -OVERHANG + (column / QUADS) * (1 + 2 * OVERHANG);
-      positions[3 * at + 1] = -OVERHANG + (row / QUADS) * (1 + 2 * OVERHANG);
-      if (row < QUADS && column < QUADS) index.push(at, at + 1, at + side, at + 1, at + side + 1, at + side);
+      positions[3 * at] = -OVERHANG + (column / quads) * (1 + 2 * OVERHANG);
+      positions[3 * at + 1] = -OVERHANG + (row / quads) * (1 + 2 * OVERHANG);
+      if (row < quads && column < quads) index.push(at, at + 1, at + side, at + 1, at + side + 1, at + side);
     }
   }
   const geometry = new BufferGeometry();

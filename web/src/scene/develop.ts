@@ -7,7 +7,7 @@ uniform sampler2D uBeams;
 uniform bool uWithBeams;
 uniform vec2 uTexel;
 uniform float uExposure;
-uniform float uMoment;
+uniform bool uWithHalo;
 
 vec3 beamsAt(vec2 at) {
   vec3 sum = vec3(0.0);
@@ -43,12 +43,12 @@ vec3 encoded(vec3 x) {
 
 void main() {
   vec3 light = texture(uPicture, vAt).rgb;
-  if (uWithBeams) light += beamsAt(vAt);
-  light += haloAt(vAt) * 0.35;
+  if (uWithBeams) light = max(light + beamsAt(vAt), 0.0);
+  if (uWithHalo) light += haloAt(vAt) * 0.35;
   vec2 off = vAt - 0.5;
   light *= 1.0 - 0.55 * dot(off, off);
   vec3 color = encoded(filmic(light * uExposure));
-  float grain = fract(sin(dot(gl_FragCoord.xy + uMoment, vec2(12.9898, 78.233))) * 43758.5453) - 0.5;
+  float grain = fract(sin(dot(gl_FragCoord.xy, vec2(12.9898, 78.233))) * 43758.5453) - 0.5;
   outColor = vec4(color + grain / 255.0, 1.0);
 }
 `;
@@ -61,17 +61,17 @@ export class Develop {
     uWithBeams: { value: false },
     uTexel: { value: [1, 1] },
     uExposure: { value: 1 },
-    uMoment: { value: 0 },
+    uWithHalo: { value: false },
   };
   private readonly pass = new Pass(FRAGMENT, this.uniforms);
 
-  render(renderer: WebGLRenderer, picture: Texture, beams: Texture | null, moment: number): void {
+  render(renderer: WebGLRenderer, picture: Texture, beams: Texture | null, halo: boolean): void {
     const { width, height } = picture.image as { width: number; height: number };
     this.uniforms.uPicture.value = picture;
     this.uniforms.uBeams.value = beams;
     this.uniforms.uWithBeams.value = beams !== null;
     this.uniforms.uTexel.value = [1 / width, 1 / height];
-    this.uniforms.uMoment.value = moment % 61;
+    this.uniforms.uWithHalo.value = halo;
     this.pass.render(renderer, null);
   }
 

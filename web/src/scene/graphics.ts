@@ -35,3 +35,11 @@ export function createPicture(width: number, height: number, quality: Quality): 
     magFilter: LinearFilter,
   });
 }
+
+/** Whether the browser computes pictures without a graphics processor. */
+export function isSoftware(renderer: WebGLRenderer): boolean {
+  const context = renderer.getContext();
+  const details = context.getExtension("WEBGL_debug_renderer_info");
+  const name = String(context.getParameter(details ? details.UNMASKED_RENDERER_WEBGL : context.RENDERER));
+  return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(name);
+}

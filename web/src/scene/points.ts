@@ -50,7 +50,7 @@ void main() {
   float depth = depthOf(vPlace.y);
   float forward = 1.0 + 2.5 * pow(max(0.0, dot(ahead, depth > 0.0 ? uSunBelow : uSun)), 4.0);
   vec3 sun = sunlightAt(depth) * causticAt(vPlace, depth);
-  vLight = uColor * (sun * 0.25 * forward + ambientOf(vec3(0.0, 1.0, 0.0), depth) * 0.8);
+  vLight = uColor * (sun * 0.127324 * forward + ambientOf(vec3(0.0), depth));
   vVeil = arriving(vec3(0.0), uEye, vPlace);
   vThrough = arriving(vec3(1.0), uEye, vPlace) - vVeil;
   gl_PointSize = shown;

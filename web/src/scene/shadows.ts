@@ -30,8 +30,8 @@ export class Shadows {
   }
 
   /** Side of the map in texels; 0 for no shadows. */
-  resize(size: number): void {
-    if ((this.target?.width ?? 0) === size) return;
+  resize(renderer: WebGLRenderer, size: number): void {
+    if (this.target?.width === Math.max(1, size)) return;
     this.dispose();
     this.shared.uShadows.value = size > 0;
     this.shared.uShadowTexel.value = 1 / Math.max(1, size);
@@ -40,6 +40,8 @@ export class Shadows {
     depth.minFilter = depth.magFilter = LinearFilter;
     this.target = new WebGLRenderTarget(depth.image.width, depth.image.height, { depthTexture: depth });
     this.shared.uShadowMap.value = depth;
+    renderer.setRenderTarget(this.target); // gives the texture its storage, which shaders need even without shadows
+    renderer.clear();
   }
 
   /** Draws the map for a ball around `center`. */

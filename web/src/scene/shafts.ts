@@ -22,14 +22,7 @@ uniform highp sampler2D uDepth;
 uniform mat4 uClipToWorld;
 uniform vec3 uEye;
 uniform float uShafts;
-uniform float uReach;
-
-float beamAt(vec3 place) {
-  vec2 entry = (place.xz + uSunBelow.xz * ((uSurface - place.y) / uSunBelow.y)) / uTileSize;
-  float broad = textureLod(uCausticTile, entry * 0.31, 4.0).r;
-  float fine = textureLod(uCausticTile, entry.yx * 0.77 + 0.21, 3.4).r;
-  return pow(max(0.0, broad * 0.65 + fine * 0.35 - 0.55), 1.6) * 2.2;
-}
+const float REACH = 16.0;
 
 float openAt(vec3 place) {
   if (!uShadows) return 1.0;
@@ -38,29 +31,29 @@ float openAt(vec3 place) {
   return texture(uShadowMap, at);
 }
 
+/** Light scattered towards the eye along a ray, as difference from still water's; from the engine's shafts.rs. */
 void main() {
+  float eyeDepth = depthOf(uEye.y);
   outColor = vec4(0.0);
-  if (!uWater || uShafts <= 0.0 || uEye.y > uSurface) return;
+  if (eyeDepth <= 0.0) return;
   vec4 end = uClipToWorld * vec4(vAt * 2.0 - 1.0, texture(uDepth, vAt).r * 2.0 - 1.0, 1.0);
   vec3 path = end.xyz / end.w - uEye;
-  float len = length(path);
-  vec3 direction = path / max(len, 1e-4);
-  len = min(len, uReach);
-  if (direction.y > 1e-3) len = min(len, (uSurface - uEye.y) / direction.y);
-  float grain = fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
-  float cosine = dot(direction, uSunBelow);
-  float phase = 0.25 + 0.75 * pow(max(0.0, cosine), 3.0);
-  vec3 gathered = vec3(0.0);
+  float away = length(path);
+  vec3 direction = path / max(away, 1e-4);
+  float len = min(min(away, REACH), direction.y > 1e-6 ? eyeDepth / direction.y : REACH);
+  float start = fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
+  float towards = max(0.0, dot(direction, uSunBelow));
+  float strength = uShafts * (0.018 + 0.06 * towards * towards * towards);
+  float stride = len / float(STEPS);
+  vec3 sum = vec3(0.0);
   for (int i = 0; i < STEPS; i++) {
-    float from = len * pow(float(i) / float(STEPS), 1.5);
-    float to = len * pow(float(i + 1) / float(STEPS), 1.5);
-    float at = mix(from, to, grain);
-    vec3 place = uEye + direction * at;
-    float depth = uSurface - place.y;
-    float fade = exp(-depth * 0.07);
-    gathered += (to - from) * exp(-uExtinction * at) * sunlightAt(depth) * beamAt(place) * openAt(place) * fade;
+    float run = (float(i) + start) * stride;
+    vec3 place = uEye + direction * run;
+    float depth = max(0.0, depthOf(place.y));
+    float pattern = causticPattern(place, depth, 2.0);
+    sum += exp(-uExtinction * (run + depth / uSunBelow.y)) * (pattern * openAt(place) - 1.0);
   }
-  outColor = vec4(gathered * (uExtinction - uAbsorption) * phase * uShafts * 1.6, 1.0);
+  outColor = vec4(uSunColor * sum * (strength * stride), 1.0);
 }
 `;
 
@@ -79,7 +72,6 @@ export class Shafts {
     this.own = {
       uDepth: { value: null as Texture | null },
       uClipToWorld: { value: new Matrix4() },
-      uReach: { value: 40 },
     };
     this.pass = new Pass(FRAGMENT, { ...shared, ...this.own });
     this.pass.mesh.material.defines = { STEPS: 14 };

@@ -6,7 +6,7 @@ import { Background } from "./background";
 import { Batch, type View } from "./batch";
 import { Caustics } from "./caustics";
 import { Develop } from "./develop";
-import { createPicture } from "./graphics";
+import { createPicture, isSoftware } from "./graphics";
 import { Ground } from "./ground";
 import { createCameraUniforms, Points } from "./points";
 import { QUALITIES, type Quality } from "./quality";
@@ -25,7 +25,7 @@ const SHADOW_AHEAD = 8;
 /** Everything that is drawn: takes layouts and frames, gives pictures. */
 export class Stage {
   readonly scene = new Scene();
-  readonly assets = new Assets();
+  readonly assets: Assets;
   readonly shared = createSharedUniforms();
   readonly cameraUniforms = createCameraUniforms();
   readonly batches = new Map<string, Batch>();
@@ -36,7 +36,7 @@ export class Stage {
   hidden = 0;
   private quality: Quality = QUALITIES[0];
   private picture;
-  private readonly caustics = new Caustics();
+  private readonly caustics: Caustics;
   private readonly shadows = new Shadows(this.shared);
   private readonly background = new Background(this.shared);
   private readonly surface = new WaterSurface(this.shared);
@@ -45,16 +45,18 @@ export class Stage {
   private readonly frustum = new Frustum();
   private readonly matrix = new Matrix4();
   private batchNumber = 0;
-  private pictures = 0;
   private before: { time: number } | null = null;
   private current: Frame | null = null;
 
   constructor(readonly renderer: WebGLRenderer) {
+    const software = isSoftware(renderer);
+    this.assets = new Assets(software ? 1 : 4);
+    this.caustics = new Caustics(software ? 128 : 256);
     this.scene.matrixWorldAutoUpdate = false;
     this.scene.add(this.background.mesh, this.surface.mesh);
     this.shared.uCausticTile.value = this.caustics.texture;
     this.picture = createPicture(1, 1, this.quality);
-    this.shadows.resize(this.quality.shadowMap);
+    this.shadows.resize(renderer, this.quality.shadowMap);
   }
 
   /** Takes an asset; says whether the message was one. */
@@ -97,15 +99,15 @@ export class Stage {
     this.picture.depthTexture?.dispose();
     this.picture.dispose();
     this.picture = createPicture(w, h, quality);
-    this.shadows.resize(quality.shadowMap);
+    this.shadows.resize(this.renderer, quality.shadowMap);
     this.shafts.resize(w, h);
   }
 
   /** Places batches between the last two frames, chooses what to draw and how finely. */
   prepare(camera: PerspectiveCamera, moment: Moment): void {
-    this.shared.uBlend.value = moment.blend;
+    this.shared.uBlend.value = this.quality.smooth ? moment.blend : 1;
     const from = this.before ? this.before.time : moment.frame.time;
-    const time = from + (moment.frame.time - from) * moment.blend;
+    const time = from + (moment.frame.time - from) * this.shared.uBlend.value;
     this.shared.uTime.value = ((time % WAVE_PERIOD) + WAVE_PERIOD) % WAVE_PERIOD;
     const view = this.viewOf(camera);
     for (const batch of this.batches.values()) batch.cull(view);
@@ -125,7 +127,12 @@ export class Stage {
     renderer.render(this.scene, camera);
     const beams = this.quality.shafts && shared.uWater.value && shared.uShafts.value > 0;
     if (beams) this.shafts.render(renderer, camera, this.picture.depthTexture!);
-    this.develop.render(renderer, this.picture.texture, beams ? this.shafts.texture : null, this.pictures++);
+    this.develop.render(
+      renderer,
+      this.picture.texture,
+      beams ? this.shafts.texture : null,
+      this.quality.halo,
+    );
   }
 
   /** Where an individual is: its batch and slot; null if it is not in the scene. */
@@ -176,7 +183,13 @@ export class Stage {
       this.cameraUniforms.uUp.value,
       new Vector3(),
     );
-    return { eye: camera.position, frustum: this.frustum, pixels, hidden: this.hidden };
+    return {
+      eye: camera.position,
+      frustum: this.frustum,
+      pixels,
+      detail: this.quality.detail,
+      hidden: this.hidden,
+    };
   }
 
   private setBatches(layout: Layout): void {

@@ -11,11 +11,8 @@ export type Purpose = "look" | "shadow" | "pick";
 /** Uniforms of one batch, shared by its materials of all purposes. */
 export interface BatchUniforms {
   [name: string]: { value: unknown };
-  uPlaceOlder: { value: Texture | null };
-  uPlaceNewer: { value: Texture | null };
   uPoseOlder: { value: Texture | null };
   uPoseNewer: { value: Texture | null };
-  uTint: { value: Texture | null };
   uColor: { value: Color };
   uPicture: { value: Texture | null };
   uBatch: { value: number };
@@ -30,7 +27,7 @@ export interface Features {
 
 const VERTEX = /* glsl */ `
 ${PLACEMENT}
-uniform highp sampler2D uTint;
+in vec3 tint;
 out vec3 vPlace;
 out vec3 vNormal;
 out vec2 vUv;
@@ -44,12 +41,12 @@ void main() {
   int instance = int(slot + 0.5);
   vec3 place = position;
   vec3 direction = normal;
-  bend(instance, place, direction);
-  stand(instance, place, direction);
+  bendByJoints(instance, place, direction);
+  standInWorld(place, direction);
   vPlace = place;
   vNormal = direction;
   vSlot = instance;
-  vTint = texelOf(uTint, instance).rgb;
+  vTint = tint;
 #ifdef COLORS
   vTint *= tone;
 #endif
@@ -159,11 +156,8 @@ export function pickedFrom(pixel: ArrayLike<number>): { batch: number; slot: num
 /** Uniforms of a batch that has nothing to show yet. */
 export function createBatchUniforms(number: number, color: readonly number[]): BatchUniforms {
   return {
-    uPlaceOlder: { value: null },
-    uPlaceNewer: { value: null },
     uPoseOlder: { value: null },
     uPoseNewer: { value: null },
-    uTint: { value: null },
     uColor: { value: new Color(color[0], color[1], color[2]) },
     uPicture: { value: null },
     uBatch: { value: number },

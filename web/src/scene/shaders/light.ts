@@ -53,10 +53,11 @@ vec3 ambientOf(vec3 normal, float depth) {
   }
   vec3 dim = exp(-uAbsorption * depth);
   vec3 side = uGlow * dim;
-  vec3 through = (uZenith + uHorizon) * 0.35 * dim;
-  vec3 above = side * 1.6 + through;
-  vec3 below = side * 0.35 + through * 0.12;
-  return mix(mix(below, side + through * 0.3, min(1.0, up * 2.0)), above, max(0.0, up * 2.0 - 1.0));
+  vec3 through = (uZenith + uHorizon) * dim;
+  vec3 above = side * 0.9 + through * 0.22;
+  vec3 level = side * 0.7 + through * 0.06;
+  vec3 below = side * 0.25 + through * 0.05;
+  return mix(mix(below, level, min(1.0, up * 2.0)), above, max(0.0, up * 2.0 - 1.0));
 }
 
 /** Sunlight on a surface that faces the sun, before shadows and caustics. */

@@ -32,7 +32,7 @@ vec3 collected(float rise, float len) {
 vec3 waterGlow(float depth, vec3 direction, float len) {
   float towards = max(0.0, dot(direction, uSunBelow));
   float square = towards * towards;
-  float forward = 1.0 + 0.6 * square * square * towards;
+  float forward = 1.0 + 0.8 * square * square * towards;
   return uGlow * exp(-uAbsorption * max(depth, 0.0)) * collected(direction.y, len) * forward;
 }
 

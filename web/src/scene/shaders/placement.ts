@@ -1,13 +1,14 @@
 /**
- * Where a vertex of an instance stands: bends it by its joints, then places it, both between the last two frames.
+ * Where a vertex of an instance stands: bends it by its joints between the last two frames, then places it.
  *
- * Textures hold, for the older and the newer frame, two texels per instance (x, y, z, scale; quaternion) and two per
- * instance and joint (x, y, z, –; quaternion), the joints' poses already multiplied by their inverse rest.
+ * Attributes of the instance are its place as drawn now (x, y, z, scale; quaternion) and its number in the batch.
+ * Textures hold, for the older and the newer frame, two texels per instance and joint (x, y, z, –; quaternion), the
+ * joints' poses already multiplied by their inverse rest.
  */
 export const PLACEMENT = /* glsl */ `
+in vec4 stand;
+in vec4 turned;
 in float slot;
-uniform highp sampler2D uPlaceOlder;
-uniform highp sampler2D uPlaceNewer;
 uniform float uBlend;
 #ifdef JOINTS
 in vec4 jointIndices;
@@ -29,7 +30,7 @@ vec4 between(vec4 older, vec4 newer) {
   return normalize(mix(dot(older, newer) < 0.0 ? -older : older, newer, uBlend));
 }
 
-void bend(int instance, inout vec3 place, inout vec3 direction) {
+void bendByJoints(int instance, inout vec3 place, inout vec3 direction) {
 #ifdef JOINTS
   vec3 bentPlace = vec3(0.0);
   vec3 bentDirection = vec3(0.0);
@@ -37,8 +38,12 @@ void bend(int instance, inout vec3 place, inout vec3 direction) {
     float weight = jointWeights[k];
     if (weight <= 0.0) continue;
     int number = 2 * (instance * JOINTS + int(jointIndices[k] + 0.5));
-    vec3 offset = mix(texelOf(uPoseOlder, number).xyz, texelOf(uPoseNewer, number).xyz, uBlend);
-    vec4 rotation = between(texelOf(uPoseOlder, number + 1), texelOf(uPoseNewer, number + 1));
+    vec3 offset = texelOf(uPoseNewer, number).xyz;
+    vec4 rotation = texelOf(uPoseNewer, number + 1);
+    if (uBlend < 1.0) {
+      offset = mix(texelOf(uPoseOlder, number).xyz, offset, uBlend);
+      rotation = between(texelOf(uPoseOlder, number + 1), rotation);
+    }
     bentPlace += weight * (offset + turn(rotation, place));
     bentDirection += weight * turn(rotation, direction);
   }
@@ -47,12 +52,8 @@ void bend(int instance, inout vec3 place, inout vec3 direction) {
 #endif
 }
 
-void stand(int instance, inout vec3 place, inout vec3 direction) {
-  vec4 older = texelOf(uPlaceOlder, 2 * instance);
-  vec4 newer = texelOf(uPlaceNewer, 2 * instance);
-  vec4 at = mix(older, newer, uBlend);
-  vec4 rotation = between(texelOf(uPlaceOlder, 2 * instance + 1), texelOf(uPlaceNewer, 2 * instance + 1));
-  place = at.xyz + at.w * turn(rotation, place);
-  direction = turn(rotation, direction);
+void standInWorld(inout vec3 place, inout vec3 direction) {
+  place = stand.xyz + stand.w * turn(turned, place);
+  direction = turn(turned, direction);
 }
 `;
