@@ -470,9 +470,10 @@ impl<'a> Turtle<'a> {
     }
 }
 
-/// The number, or zero in place of what is none.
+/// The number within what a world can hold, or zero in place of what is none.
 fn finite(number: f32) -> f32 {
-    if number.is_finite() { number } else { 0.0 }
+    const FARTHEST: f32 = 1e9;
+    if number.is_finite() { number.clamp(-FARTHEST, FARTHEST) } else { 0.0 }
 }
 
 fn vector(parameters: &[f32], first: usize) -> Option<Vec3> {

@@ -39,6 +39,7 @@ fn directed_edges(mesh: &Mesh) -> BTreeMap<Edge, i32> {
 
 fn assert_sound(mesh: &Mesh) {
     let count = mesh.positions.len();
+    assert!(mesh.positions.iter().all(|position| position.is_finite()));
     assert!(mesh.triangles.iter().flatten().all(|&index| (index as usize) < count));
     assert_eq!((mesh.normals.len(), mesh.uvs.len(), mesh.colors.len()), (count, count, count));
     for normal in &mesh.normals {
@@ -167,14 +168,16 @@ fn nothing_has_a_shape_too() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(300))]
+    #![proptest_config(ProptestConfig::with_cases(1000))]
 
     /// Any walk of the turtle gives a sound mesh and skin.
     #[test]
-    fn any_walk_has_a_sound_mesh(steps in prop::collection::vec(0usize..24, 1..80), chains in 0u32..8, joints in 1u32..30) {
-        const STEPS: [&str; 24] = [
+    fn any_walk_has_a_sound_mesh(steps in prop::collection::vec(0usize..32, 1..80), chains in 0u32..8, joints in 1u32..30) {
+        const STEPS: [&str; 32] = [
             "F", "F(0.2)", "F(-1)", "f(0.3)", "G", "+(40)", "-(170)", "&(90)", "/(30)", "|", "[", "]",
             "[", "]", "!(0)", "!(0.3)", "#", ";", "{", "}", "~l(0.4)", "@O(0.1)", "@#(1)", "@#(2)",
+            "F(1.0e38)", "F(0.000000000000001)", "!(1.0e38)", "@O(1.0e38)", "~l(1.0e38)", "f(-1.0e30)",
+            "@M(1.0e38,0,0)", "@R(0,0,0,0,0,0)",
         ];
         let walk: String = steps.iter().map(|&step| STEPS[step]).collect();
         let options = SkeletonOptions { joints, chains, shortest: 0.1 };

@@ -116,7 +116,8 @@ impl<'a> Builder<'a> {
             }
         }
         for normal in &mut mesh.normals[vertex..] {
-            *normal = normal.normalize_or(Vec3::Y);
+            // Twice, for the sum over very small triangles has few digits.
+            *normal = normal.normalize_or(Vec3::Y).normalize_or(Vec3::Y);
         }
     }
 }

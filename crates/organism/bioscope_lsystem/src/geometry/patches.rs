@@ -115,7 +115,7 @@ fn polygon_normal(corners: &[Vec3]) -> Vec3 {
     let next = corners.iter().cycle().skip(1);
     let sum: Vec3 =
         corners.iter().zip(next).map(|(a, b)| (*a - corners[0]).cross(*b - corners[0])).sum();
-    sum.normalize_or(Vec3::Y)
+    sum.normalize_or(Vec3::Y).normalize_or(Vec3::Y)
 }
 
 /// Cuts a simple polygon (counterclockwise) into triangles, ear by ear.
