@@ -18,6 +18,10 @@ const KNOWN: Record<string, number> = {
   separation: 1,
   mate: 5,
   home: 6,
+  born: 2,
+  eaten: 4,
+  startled: 1,
+  died: 7,
 };
 
 /** The color of a behavior, species or kind of event: the same in chart, label and overlay. */

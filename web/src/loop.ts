@@ -15,6 +15,8 @@ export class FrameLoop {
   frame: Frame | null = null;
   /** Pictures drawn. */
   pictures = 0;
+  /** Times that the screen wanted a picture since the world's last frame. */
+  picturesSinceFrame = 0;
   readonly governor: QualityGovernor;
   private readonly queue = new PlayoutQueue();
   /** The layout received last. */
@@ -85,6 +87,7 @@ export class FrameLoop {
 
   private take(frame: Frame): void {
     this.unseen.push(frame.tick);
+    this.picturesSinceFrame = 0;
     if (frame.layout !== this.layout?.revision) {
       this.missing(new Error("a layout"));
       return;
@@ -99,6 +102,7 @@ export class FrameLoop {
   private draw(now: number): void {
     this.request = requestAnimationFrame((next) => this.draw(next));
     this.acknowledge();
+    this.picturesSinceFrame += 1;
     const passed = this.lastTime === 0 ? 16 : now - this.lastTime;
     this.lastTime = now;
     if (this.viewer.keeping.video) return;

@@ -13,7 +13,7 @@ export function startViewer(host: HTMLElement, transport: Transport, source: Pag
   if (renderer) {
     const viewer = new Viewer(host, renderer, transport, source);
     exposeForTests(viewer);
-  
+
     viewer.start();
     return () => viewer.stop();
   }

@@ -6,6 +6,8 @@ import { element } from "../overlays/dom";
 
 /** Changes that can be undone. */
 const MOST_UNDO = 200;
+/** Sliders that are shown without unfolding anything. */
+const MOST_OPEN = 14;
 
 interface Change {
   owner: string;
@@ -85,7 +87,8 @@ export class ParameterPane {
     }
     const pane = new Pane({ container: this.element });
     this.pane = pane;
-    for (const owner of owners) this.buildOwner(pane, owner, owners.length === 1);
+    const few = owners.reduce((sum, owner) => sum + owner.parameters.length, 0) <= MOST_OPEN;
+    for (const owner of owners) this.buildOwner(pane, owner, few);
     const buttons = element("div", { class: "bio-row" });
     const undo = element("button", {
       textContent: "undo",

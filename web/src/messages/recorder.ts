@@ -6,6 +6,10 @@ import { usedAssets } from "./usage";
 const MOST_FRAMES = 1800;
 /** Bytes kept at most, assets not counted. */
 const MOST_BYTES = 64 * 1024 * 1024;
+/** Old entries go when there are this many times too many, all at once. */
+const SLACK = 1.1;
+/** Layouts between two searches for assets that are no longer needed. */
+const LAYOUTS_BETWEEN = 32;
 
 /** A recording as it is stored: the world's own messages, each with the world time at which it came. */
 export interface Recording {
@@ -36,6 +40,7 @@ export class Recorder {
   private entries: Entry[] = [];
   private frames = 0;
   private bytes = 0;
+  private changes = 0;
   private time = 0;
   private tick = -1;
 
@@ -52,12 +57,16 @@ export class Recorder {
   }
 
   note(message: Message, bytes: Uint8Array): void {
-    RULES[message.type]?.(this, message, bytes);
+    const rule = RULES[message.type] as
+      | ((recorder: Recorder, message: Message, bytes: Uint8Array) => void)
+      | undefined;
+    rule?.(this, message, bytes);
   }
 
   /** The recording as one MessagePack map; null before the first frame. */
   save(): Uint8Array | null {
     if (!this.hello || this.frames === 0) return null;
+    this.forget();
     const recording: Recording = {
       hello: this.hello,
       assets: [...this.assets.values()].map((asset) => asset.bytes),
@@ -83,7 +92,7 @@ export class Recorder {
   keepLayout(layout: Layout, bytes: Uint8Array): void {
     this.layouts.set(layout.revision, { layout, bytes });
     for (const asset of this.assets.values()) asset.fresh = false;
-    this.forget();
+    if (++this.changes % LAYOUTS_BETWEEN === 0) this.forget();
   }
 
   keepParameters(bytes: Uint8Array): void {
@@ -113,13 +122,14 @@ export class Recorder {
   private add(entry: Entry): void {
     this.entries.push(entry);
     this.bytes += entry[3].byteLength;
+    if (this.frames <= SLACK * MOST_FRAMES && this.bytes <= SLACK * MOST_BYTES) return;
     let first = 0;
     while (first < this.entries.length - 1 && (this.frames > MOST_FRAMES || this.bytes > MOST_BYTES)) {
       const old = this.entries[first++];
       this.bytes -= old[3].byteLength;
       if (old[1] !== null) this.frames -= 1;
     }
-    if (first > 0) this.entries.splice(0, first);
+    this.entries.splice(0, first);
   }
 
   private forget(): void {
@@ -143,10 +153,10 @@ export class Recorder {
   }
 }
 
-type Rule = (recorder: Recorder, message: never, bytes: Uint8Array) => void;
 type Of<K extends Message["type"]> = Extract<Message, { type: K }>;
 
-const rules: { [K in Message["type"]]?: (recorder: Recorder, message: Of<K>, bytes: Uint8Array) => void } = {
+/** What to do with each kind of message; kinds that are missing are not recorded. */
+const RULES: { [K in Message["type"]]?: (recorder: Recorder, message: Of<K>, bytes: Uint8Array) => void } = {
   hello: (recorder, _message, bytes) => recorder.begin(bytes),
   mesh: (recorder, mesh, bytes) =>
     recorder.keepAsset(
@@ -168,9 +178,3 @@ const rules: { [K in Message["type"]]?: (recorder: Recorder, message: Of<K>, byt
   statistics: (recorder, _message, bytes) => recorder.keepOther(bytes),
   inspection: (recorder, _message, bytes) => recorder.keepOther(bytes),
 };
-
-/** What to do with each kind of message; kinds that are missing are not recorded. */
-const RULES = rules as Record<string, Rule | undefined> as Record<
-  string,
-  ((recorder: Recorder, message: Message, bytes: Uint8Array) => void) | undefined
->;

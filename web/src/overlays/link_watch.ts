@@ -3,6 +3,8 @@ import type { Viewer } from "../viewer";
 
 /** Seconds without a frame from a running world after which we say so. */
 const SILENCE = 5;
+/** A page that has drawn fewer pictures than this in the silence is itself what is slow. */
+const PICTURES = 10;
 /** Unreadable messages after which we say so. */
 const UNREADABLE = 1;
 
@@ -74,10 +76,11 @@ export class LinkWatch {
   }
 
   private look(): void {
-    const { session, notices, keeping } = this.viewer;
+    const { session, notices, keeping, loop } = this.viewer;
     const silent = (performance.now() - this.lastFrame) / 1000;
     if (document.visibilityState !== "visible") this.lastFrame = performance.now();
     if (!session.connected || !this.running || keeping.video || silent < SILENCE) return;
+    if (loop.picturesSinceFrame < PICTURES) return;
     notices.stand("silence", {
       level: "warning",
       text: `The world has sent nothing for ${Math.round(silent)} s.`,
