@@ -6,6 +6,7 @@ pub mod drifters;
 pub mod fish;
 mod names;
 pub mod placement;
+pub mod plants;
 pub mod scenery;
 
 use std::sync::Arc;
@@ -18,6 +19,7 @@ pub fn registry() -> Registry {
     add_animals(&mut registry, Arc::default());
     add_drifters(&mut registry);
     registry.add_population("fish_school", |bytes| boxed(fish::FishSchool::from_saved(bytes)));
+    registry.add_population("plants", |bytes| boxed(plants::Plants::from_saved(bytes)));
     add_scenery(&mut registry);
     registry
 }
