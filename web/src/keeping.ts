@@ -162,7 +162,7 @@ export class Keeping {
       world: session.hello.world,
       seed: session.hello.seed,
       tick: loop.frame.tick,
-      settings: changedSettings(parameters.owners),
+      settings: [...changedSettings(parameters.owners, (owner, one) => parameters.initialOf(owner, one))],
       camera: cameras.name,
       eye: position.toArray(),
       target: target.toArray(),

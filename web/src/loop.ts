@@ -30,6 +30,7 @@ export class FrameLoop {
   private lastReconnect = 0;
   private readonly unseen: number[] = [];
   private fine = false;
+  private wasBroken = false;
   private visible = false;
   private size = { width: 1, height: 1 };
 
@@ -108,7 +109,11 @@ export class FrameLoop {
     if (this.viewer.keeping.video) return;
     const moment = this.queue.at(now);
     if (!moment) return;
-    this.show(moment, Math.min(0.1, passed / 1000));
+    try {
+      this.show(moment, Math.min(0.1, passed / 1000));
+    } catch (error) {
+      this.broken(error as Error);
+    }
     if (this.visible && this.governor.note(passed)) this.lowerQuality();
     this.visible = document.visibilityState === "visible";
     if (now - this.lastPanels > PANEL_PAUSE) {
@@ -159,6 +164,18 @@ export class FrameLoop {
     stage.setFrame(frame, cut);
     this.frame = frame;
     return true;
+  }
+
+  /** A picture could not be drawn: said once, while the next are tried. */
+  private broken(error: Error): void {
+    if (this.wasBroken) return;
+    this.wasBroken = true;
+    console.error(error);
+    this.viewer.notices.stand("picture", {
+      level: "error",
+      text: `The picture cannot be drawn (${error.message}).`,
+      remedy: "Reload the page; if it happens again, page and world are of different versions.",
+    });
   }
 
   /** Something that a layout needs never came, or was forgotten: a new connection brings everything. */

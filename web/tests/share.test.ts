@@ -36,7 +36,9 @@ describe("share links", () => {
       { ...parameter, name: "calm", default: 0.1, value: Math.fround(0.1) },
       { ...parameter, name: "wild", default: 1, value: 2 },
     ];
-    expect(changedSettings([{ name: "cod", parameters }])).toEqual([["cod", "wild", 2]]);
+    expect(changedSettings([{ name: "cod", parameters }], (_owner, one) => one.default)).toEqual([
+      ["cod", "wild", 2],
+    ]);
   });
 });
 

@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import { colorOf } from "../src/colors";
-import { flatten, formatNumber, formatValue } from "../src/inspector/values";
+import { flatten, formatNumber, formatValue, unitOf } from "../src/inspector/values";
 import type { Layout } from "../src/messages/types";
 import { usedAssets } from "../src/messages/usage";
 import { clock } from "../src/overlays/timeline_bar";
@@ -11,6 +11,8 @@ describe("values", () => {
   it("carry their unit", () => {
     expect(formatValue("speed", 0.5).text).toBe("0.500 m/s");
     expect(formatValue("beat [Hz]", 3).text).toBe("3 Hz");
+    expect(unitOf("mean_speed_m_per_s")).toEqual({ label: "mean_speed", unit: "m/s" });
+    expect(unitOf("nearest_neighbor_m")).toEqual({ label: "nearest_neighbor", unit: "m" });
     expect(formatValue("flow", [3, 0, 4])).toEqual({ text: "3  0  4 m/s", number: 5 });
     expect(formatValue("hungry", true)).toEqual({ text: "yes", number: 1 });
     expect(formatNumber(Number.POSITIVE_INFINITY)).toBe("∞");

@@ -21,14 +21,18 @@ export class ParameterStore {
   /** Called when values have come from the world; `shape` says whether the list itself is another. */
   readonly listeners: ((shape: boolean) => void)[] = [];
   private readonly changes: Change[] = [];
+  /** Values with which the world began, as far as this page knows. */
+  private readonly initial = new Map<string, number>();
 
   constructor(private readonly session: Session) {
     session.on("hello", () => {
       this.changes.length = 0;
+      this.initial.clear();
     });
     session.on("parameters", ({ owners }) => {
       const shape = shapeOf(owners) !== shapeOf(this.owners);
       this.owners = owners;
+      for (const owner of owners) for (const one of owner.parameters) this.remember(owner.name, one);
       for (const listener of this.listeners) listener(shape);
     });
   }
@@ -51,13 +55,26 @@ export class ParameterStore {
     if (change) this.session.send({ do: "set", owner: change.owner, name: change.name, value: change.from });
   }
 
-  /** Sets everything of these owners back to its default. */
+  /** Value with which the world began. */
+  initialOf(owner: string, parameter: Parameter): number {
+    return this.initial.get(`${owner}:${parameter.name}`) ?? parameter.default;
+  }
+
+  /** Sets everything of these owners back to where the world began. */
   reset(owners: Owner[]): void {
     for (const owner of owners) {
-      for (const { name, value, default: usual } of owner.parameters) {
-        if (value !== usual) this.set(owner.name, name, usual, value);
+      for (const parameter of owner.parameters) {
+        const { name, value } = parameter;
+        const initial = this.initialOf(owner.name, parameter);
+        if (value !== initial) this.set(owner.name, name, initial, value);
       }
     }
+  }
+
+  private remember(owner: string, { name, value, initial }: Parameter): void {
+    const key = `${owner}:${name}`;
+    if (initial !== undefined) this.initial.set(key, initial);
+    else if (!this.initial.has(key)) this.initial.set(key, value);
   }
 }
 
@@ -98,7 +115,7 @@ export class ParameterPane {
     const reset = () => this.store.reset(this.chosen());
     buttons.append(
       undo,
-      element("button", { textContent: "reset", title: "all back to their defaults", onclick: reset }),
+      element("button", { textContent: "reset", title: "all back to where the world began", onclick: reset }),
     );
     this.element.append(buttons);
   }

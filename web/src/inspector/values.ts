@@ -22,16 +22,39 @@ const UNITS: Record<string, string> = {
   velocity: "m/s",
 };
 
+/** Units as they stand at the end of names, longest first. */
+const ENDINGS: [string, string][] = [
+  ["_body_lengths_per_s", "BL/s"],
+  ["_w_per_kg", "W/kg"],
+  ["_j_per_kg", "J/kg"],
+  ["_m_per_s2", "m/s²"],
+  ["_rad_per_s", "rad/s"],
+  ["_m_per_s", "m/s"],
+  ["_degrees", "°"],
+  ["_celsius", "°C"],
+  ["_per_s", "1/s"],
+  ["_rad", "rad"],
+  ["_deg", "°"],
+  ["_hz", "Hz"],
+  ["_kg", "kg"],
+  ["_j", "J"],
+  ["_m", "m"],
+  ["_s", "s"],
+  ["_w", "W"],
+];
+
 export interface Formatted {
   text: string;
   /** The number to plot; undefined for what is none. */
   number?: number;
 }
 
-/** Unit of a value: written after its name in brackets, or known from its name. */
+/** Unit of a value: written after its name in brackets or at its end, or known from its name. */
 export function unitOf(name: string): { label: string; unit: string } {
   const written = /^(.*?)\s*[([]([^)\]]+)[)\]]$/.exec(name);
   if (written) return { label: written[1], unit: written[2] };
+  const ending = ENDINGS.find(([letters]) => name.endsWith(letters));
+  if (ending) return { label: name.slice(0, -ending[0].length), unit: ending[1] };
   const last = name.split(".").at(-1) ?? name;
   return { label: name, unit: UNITS[last] ?? "" };
 }
@@ -41,7 +64,8 @@ export function formatNumber(number: number): string {
   if (!Number.isFinite(number)) return number > 0 ? "∞" : Number.isNaN(number) ? "–" : "−∞";
   if (Number.isInteger(number) && Math.abs(number) < 1e6) return String(number);
   const size = Math.abs(number);
-  if (size >= 1e6 || (size > 0 && size < 1e-3)) return number.toExponential(2);
+  if (size < 1e-9) return "0";
+  if (size >= 1e6 || size < 1e-3) return number.toExponential(2);
   const places = size >= 100 ? 0 : size >= 10 ? 1 : size >= 1 ? 2 : 3;
   return number.toFixed(places);
 }

@@ -16,9 +16,8 @@ const MESH: Fields = {
   joint_weights: Float32Array,
 };
 const BATCH: Fields = { ids: Uint32Array, transforms: Float32Array, tints: Float32Array };
-const POINTS: Fields = { ids: Uint32Array, radii: Float32Array };
 const MOVING: Fields = { positions: Uint16Array, rotations: Int16Array, poses: Int16Array };
-const DRIFTING: Fields = { positions: Uint16Array };
+const DRIFTING: Fields = { positions: Uint16Array, radii: Uint8Array };
 const RETINA: Fields = { color: Uint8Array, depth: Float32Array, identity: Uint32Array };
 
 /** How the byte fields of each message become arrays; messages that are missing here have none. */
@@ -26,7 +25,6 @@ const READERS: Record<string, (message: Map) => void> = {
   mesh: (message) => typed(message, MESH),
   layout: (message) => {
     for (const batch of message.batches as Map[]) typed(batch, BATCH);
-    for (const points of message.points as Map[]) typed(points, POINTS);
   },
   frame: (message) => {
     for (const moving of Object.values(message.moving as Record<string, Map>)) typed(moving, MOVING);

@@ -98,12 +98,9 @@ export interface BatchLayout {
 export interface PointsLayout {
   name: string;
   species: string;
-  count: number;
   color: Color;
   opacity: number;
   glassy: boolean;
-  ids: Uint32Array;
-  radii: Float32Array;
 }
 
 export interface Sun {
@@ -150,6 +147,10 @@ export interface Moving {
 export interface Drifting {
   box: Box;
   positions: Uint16Array;
+  /** Least and greatest radius, metres. */
+  radius: [number, number];
+  /** 0 to 255 from the least to the greatest. */
+  radii: Uint8Array;
 }
 
 export interface Annotation {
@@ -184,6 +185,8 @@ export interface Parameter {
   meaning: string;
   source: string;
   value: number;
+  /** Value with which the world began; absent if the world does not say. */
+  initial?: number;
 }
 
 export interface Owner {

@@ -9,6 +9,7 @@ import {
   OneMinusSrcAlphaFactor,
   Points as PointCloud,
   ShaderMaterial,
+  Vector2,
   Vector3,
 } from "three";
 import type { Box, Drifting, PointsLayout } from "../messages/types";
@@ -19,7 +20,8 @@ import type { SharedUniforms } from "./shared_uniforms";
 const VERTEX = /* glsl */ `
 in vec3 older;
 in vec3 newer;
-in float radius;
+in float girth;
+uniform vec2 uRadius;
 uniform vec3 uOlderLow;
 uniform vec3 uOlderSize;
 uniform vec3 uNewerLow;
@@ -40,8 +42,9 @@ ${LIGHT}
 void main() {
   vec3 from = uOlderLow + older * uOlderSize;
   vec3 to = uNewerLow + newer * uNewerSize;
-  vPlace = distance(from, to) > 1.5 ? to : mix(from, to, uBlend);
+  vPlace = distance(from, to) > 0.5 ? to : mix(from, to, uBlend);
   float away = distance(vPlace, uEye);
+  float radius = mix(uRadius.x, uRadius.y, girth);
   float size = 2.0 * radius * uPixels / max(away, 0.01);
   float shown = max(size, 1.6);
   float close = smoothstep(0.1, 0.45, away) * clamp(60.0 / shown, 0.25, 1.0);
@@ -114,25 +117,26 @@ const box = (target: { low: Vector3; size: Vector3 }, [x, y, z, X, Y, Z]: Box) =
 /** Plankton, bubbles, motes: one sprite each. */
 export class Points {
   readonly cloud: PointCloud<BufferGeometry, ShaderMaterial>;
-  private readonly buffers: [BufferAttribute, BufferAttribute];
+  private buffers: [BufferAttribute, BufferAttribute];
+  private girths: BufferAttribute;
   private readonly boxes = [0, 1].map(() => ({ low: new Vector3(), size: new Vector3() }));
+  private readonly radius = new Vector2();
   private newest = 0;
-  private placed = false;
+  private count = 0;
 
   constructor(
     readonly layout: PointsLayout,
     shared: SharedUniforms,
     camera: CameraUniforms,
   ) {
-    const geometry = new BufferGeometry();
-    this.buffers = [positionBuffer(layout.count), positionBuffer(layout.count)];
-    geometry.setAttribute("radius", new BufferAttribute(layout.radii, 1));
-    geometry.setAttribute("position", new BufferAttribute(new Float32Array(3 * layout.count), 3));
+    this.buffers = [positionBuffer(1), positionBuffer(1)];
+    this.girths = girthBuffer(1);
     const material = new ShaderMaterial({
       glslVersion: GLSL3,
       uniforms: {
         ...shared,
         ...camera,
+        uRadius: { value: this.radius },
         uOlderLow: { value: null },
         uOlderSize: { value: null },
         uNewerLow: { value: null },
@@ -149,7 +153,7 @@ export class Points {
       blendSrc: OneFactor,
       blendDst: OneMinusSrcAlphaFactor,
     });
-    this.cloud = new PointCloud(geometry, material);
+    this.cloud = new PointCloud(new BufferGeometry(), material);
     this.cloud.frustumCulled = false;
     this.cloud.renderOrder = 10;
     this.cloud.visible = false;
@@ -159,18 +163,24 @@ export class Points {
   /** Whether a layout shows the same points with the same looks. */
   fits(layout: PointsLayout): boolean {
     const old = this.layout;
-    const looks = (one: PointsLayout) => `${one.color} ${one.opacity} ${one.glassy} ${one.count}`;
-    return looks(old) === looks(layout) && old.radii.every((radius, index) => radius === layout.radii[index]);
+    const looks = (one: PointsLayout) => `${one.color} ${one.opacity} ${one.glassy}`;
+    return looks(old) === looks(layout);
   }
 
-  /** Takes where the points have drifted to; nothing: they stay. */
+  /** Takes where the points have drifted to, and how many there are now. */
   advance(drifting: Drifting | undefined, cut: boolean): void {
-    if (!drifting) return;
+    const count = (drifting?.positions.length ?? 0) / 3;
+    this.cloud.visible = count > 0;
+    const others = count !== this.count; // come or gone: nobody knows which is which
+    this.count = count;
+    if (!drifting || count === 0) return;
+    this.makeRoom(count);
     this.newest = 1 - this.newest;
     this.write(this.newest, drifting);
-    if (cut || !this.placed) this.write(1 - this.newest, drifting);
-    this.placed = true;
-    this.cloud.visible = true;
+    if (cut || others) this.write(1 - this.newest, drifting);
+    this.radius.fromArray(drifting.radius);
+    (this.girths.array as Uint8Array).set(drifting.radii.subarray(0, count));
+    this.girths.needsUpdate = true;
     this.bind();
   }
 
@@ -179,9 +189,18 @@ export class Points {
     this.cloud.material.dispose();
   }
 
+  /** Makes the buffers longer if there are more points than ever. */
+  private makeRoom(count: number): void {
+    if (count <= this.girths.count) return;
+    const room = Math.ceil(count * 1.3);
+    this.cloud.geometry.dispose();
+    this.cloud.geometry = new BufferGeometry();
+    this.buffers = [positionBuffer(room), positionBuffer(room)];
+    this.girths = girthBuffer(room);
+  }
+
   private write(which: number, drifting: Drifting): void {
-    const array = this.buffers[which].array as Uint16Array;
-    array.set(drifting.positions.subarray(0, array.length));
+    (this.buffers[which].array as Uint16Array).set(drifting.positions);
     this.buffers[which].needsUpdate = true;
     box(this.boxes[which], drifting.box);
   }
@@ -189,8 +208,11 @@ export class Points {
   private bind(): void {
     const { geometry, material } = this.cloud;
     const [newer, older] = [this.newest, 1 - this.newest];
+    geometry.setAttribute("position", this.buffers[newer]);
     geometry.setAttribute("newer", this.buffers[newer]);
     geometry.setAttribute("older", this.buffers[older]);
+    geometry.setAttribute("girth", this.girths);
+    geometry.setDrawRange(0, this.count);
     material.uniforms.uNewerLow.value = this.boxes[newer].low;
     material.uniforms.uNewerSize.value = this.boxes[newer].size;
     material.uniforms.uOlderLow.value = this.boxes[older].low;
@@ -208,6 +230,12 @@ export function createCameraUniforms() {
 }
 
 export type CameraUniforms = ReturnType<typeof createCameraUniforms>;
+
+function girthBuffer(count: number): BufferAttribute {
+  const buffer = new BufferAttribute(new Uint8Array(count), 1, true);
+  buffer.setUsage(DynamicDrawUsage);
+  return buffer;
+}
 
 function positionBuffer(count: number): BufferAttribute {
   const buffer = new BufferAttribute(new Uint16Array(3 * count), 3, true);

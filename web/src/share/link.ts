@@ -1,5 +1,5 @@
 import type { Setting } from "../messages/commands";
-import type { Owner } from "../messages/types";
+import type { Owner, Parameter } from "../messages/types";
 
 /** What a share link restores. */
 export interface Shared {
@@ -46,11 +46,17 @@ export function parseHash(hash: string): Shared | null {
   };
 }
 
-/** Parameters that differ from their defaults. */
-export function changedSettings(owners: Owner[]): Setting[] {
+/** Parameters that differ from what they were when the world began. */
+export function changedSettings(
+  owners: Owner[],
+  initialOf: (owner: string, parameter: Parameter) => number,
+): Setting[] {
   return owners.flatMap((owner) =>
     owner.parameters
-      .filter(({ value, default: usual }) => Math.abs(value - usual) > 1e-6 * Math.max(1, Math.abs(usual)))
+      .filter((one) => {
+        const initial = initialOf(owner.name, one);
+        return Math.abs(one.value - initial) > 1e-6 * Math.max(1, Math.abs(initial));
+      })
       .map(({ name, value }): Setting => [owner.name, name, Number(value.toPrecision(7))]),
   );
 }
