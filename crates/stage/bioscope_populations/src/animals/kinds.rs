@@ -42,6 +42,7 @@ impl Default for Kinds {
             })?;
             Ok(Box::new(Swimmer::restore(spine, bytes)?))
         });
+        kinds.add_look("fish", crate::fish::look_from);
         kinds
     }
 }

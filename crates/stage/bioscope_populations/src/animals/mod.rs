@@ -23,7 +23,9 @@ mod settings;
 #[cfg(test)]
 mod tests;
 
+pub(crate) use contact::way_out;
 pub use individual::Animal;
 pub use kinds::Kinds;
 pub use look::Look;
+pub(crate) use population::tint;
 pub use population::{Animals, AnimalsOptions, Place};

@@ -87,7 +87,7 @@ fn save_one(individual: &Individual) -> Result<SavedIndividual> {
         id: individual.id,
         look: part(&look.kind, look.description.clone()),
         senses: senses.collect::<Result<_>>()?,
-        mind: part(mind.name(), mind.save()),
+        mind: part(mind.name(), mind.save()?),
         body: part(body.kind(), body.save()?),
         may_fail: *may_fail,
         record: individual.record.clone(),

@@ -90,8 +90,8 @@ impl Mind for Homing {
         Ok(Intention { heading: percepts.home, speed: 1.0, urgency: 0.5, ..Intention::default() })
     }
 
-    fn save(&self) -> Vec<u8> {
-        state::to_bytes(self)
+    fn save(&self) -> Result<Vec<u8>> {
+        Ok(state::to_bytes(self))
     }
 }
 

@@ -1,0 +1,380 @@
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use bioscope_core::{
+    Annotation, Error, Event, Id, Mark, NOTHING, Parameter, Parameters, Purpose, Quat, Result, Vec3,
+};
+use bioscope_crowds::{Flock, Goal, Home, Surroundings, statistics};
+use bioscope_geometry::{Batch, Transform};
+use bioscope_motion::undulation::spine_pose;
+use bioscope_world::{Growth, Inspection, Population, Publication, View};
+use rayon::prelude::*;
+
+use super::course::Course;
+use super::fish::{Fish, Step};
+use super::threats::Lookout;
+use super::{FishSchoolOptions, SchoolParameters};
+use crate::animals::way_out;
+use crate::fish::FishForm;
+use crate::names::free_name;
+
+const BIRTH: Purpose = Purpose::new("birth of a schooling fish");
+/// Fishes that one task handles.
+const TASK: usize = 64;
+/// Ticks from one count of groups to the next.
+const COUNT_INTERVAL: u64 = 30;
+/// Distance in body lengths below which two fishes belong to one group.
+const LINK: f32 = 6.0;
+/// Least share of the school that counts as a group of its own.
+const LEAST_GROUP: f32 = 0.08;
+
+/// A school of fish; see the [module](super).
+pub struct FishSchool {
+    pub(super) options: FishSchoolOptions,
+    pub(super) form: Arc<FishForm>,
+    pub(super) flock: Flock,
+    pub(super) fishes: Vec<Fish>,
+    pub(super) course: Course,
+    /// Number of groups at the last count.
+    pub(super) groups: usize,
+    /// Number of groups before, if the last tick changed it.
+    pub(super) regrouped_from: Option<usize>,
+    /// Wishes of the first few fishes, for show: accelerations in units of the greatest.
+    pub(super) wishes: Vec<Vec3>,
+    pub(super) scratch: Scratch,
+}
+
+/// What is worked out anew in every tick.
+#[derive(Default)]
+pub(super) struct Scratch {
+    lookout: Lookout,
+    flows: Vec<Vec3>,
+    before: Vec<(Quat, f32)>,
+}
+
+impl FishSchool {
+    /// A school that will settle as the options say; refuses options that make no sense.
+    pub fn new(options: FishSchoolOptions) -> Result<Self> {
+        options.check()?;
+        let home = options.home.unwrap_or(options.center);
+        Ok(Self {
+            form: options.species.form(),
+            flock: Flock::new(options.flock.clone(), 0)?,
+            fishes: Vec::new(),
+            course: Course::starting(home),
+            groups: 1,
+            regrouped_from: None,
+            wishes: Vec::new(),
+            scratch: Scratch::default(),
+            options,
+        })
+    }
+
+    /// Identities of all fishes.
+    pub fn ids(&self) -> &[Id] {
+        self.flock.ids()
+    }
+
+    /// Where each fish is, metres.
+    pub fn positions(&self) -> &[Vec3] {
+        self.flock.positions()
+    }
+
+    /// Where each fish is, how it is turned, and its size relative to its species.
+    pub(super) fn placement(&self, index: usize) -> Transform {
+        let scale = self.fishes[index].scale;
+        Transform::new(self.flock.positions()[index], self.flock.rotation(index), scale)
+    }
+
+    fn body_length(&self) -> f32 {
+        self.flock.parameters.body_length
+    }
+
+    /// The flock among what surrounds it.
+    fn with_surroundings(
+        &mut self,
+        view: &View,
+        verb: impl FnOnce(&mut Flock, &Surroundings) -> Result<()>,
+    ) -> Result<()> {
+        let center = self.options.home.unwrap_or(self.options.center);
+        let surroundings = Surroundings {
+            time: view.moment.time,
+            obstacles: &view.environment.obstacles,
+            threats: &self.scratch.lookout.threats,
+            terrain: view.environment.terrain.as_deref(),
+            surface: view.environment.medium.surface,
+            goal: Some(Goal::Point(self.course.goal)),
+            home: Some(Home { center, radius: self.options.parameters.home_radius }),
+            flow: &self.scratch.flows,
+        };
+        verb(&mut self.flock, &surroundings)
+    }
+
+    /// Looks for threats so near that somebody may flee.
+    fn look_out(&mut self, view: &View) {
+        let reach = self.flock.parameters.flight_distance * self.body_length();
+        let start = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+        let (low, high) = self
+            .flock
+            .positions()
+            .iter()
+            .fold(start, |(low, high), &one| (low.min(one - reach), high.max(one + reach)));
+        let least_length = self.options.parameters.threat_ratio * self.body_length();
+        let species = &self.options.species.name;
+        self.scratch.lookout.scan(view.scene, species, least_length, (low, high));
+    }
+
+    /// Sets the pace of each for this tick, and keeps what is needed to tell how it moved.
+    fn prepare(&mut self, dt: f32) {
+        let SchoolParameters { burst, burst_period, .. } = self.options.parameters;
+        for (fish, pace) in self.fishes.iter_mut().zip(self.flock.paces_mut()) {
+            fish.beat(dt, burst_period);
+            *pace = fish.pace_now(burst);
+        }
+        let flock = &self.flock;
+        (0..flock.len())
+            .into_par_iter()
+            .with_min_len(TASK)
+            .map(|index| (flock.rotation(index), flock.velocities()[index].length()))
+            .collect_into_vec(&mut self.scratch.before);
+    }
+
+    /// Lets every fish feel, bend and beat as the flock has moved it.
+    fn follow(&mut self, dt: f32) {
+        let length = self.body_length();
+        let Self { flock, scratch, form, fishes, .. } = self;
+        let gait = form.spine.gait();
+        fishes.par_iter_mut().enumerate().with_min_len(TASK).for_each(|(index, fish)| {
+            let (before, speed_before) = scratch.before[index];
+            let velocity = flock.velocities()[index];
+            fish.motion = velocity + scratch.flows[index];
+            let body = length * fish.scale;
+            let speeds = [speed_before, velocity.length()].map(|speed| speed / body);
+            fish.swim(gait, &Step { before, heading: flock.headings()[index], speeds, dt });
+            let place = flock.positions()[index];
+            let alarm = flock.alarms()[index];
+            let threat = if alarm > 0.0 { scratch.lookout.nearest(place) } else { None };
+            let threat = threat.map_or(NOTHING, |(id, _)| id);
+            fish.feel(alarm, flock.behavior(index), threat, dt);
+        });
+    }
+
+    /// Counts the groups of the school from time to time.
+    fn count_groups(&mut self, tick: u64) {
+        self.regrouped_from = None;
+        if !tick.is_multiple_of(COUNT_INTERVAL) || self.fishes.is_empty() {
+            return;
+        }
+        let least = (LEAST_GROUP * self.fishes.len() as f32).max(2.0) as usize;
+        let labels = statistics::flockettes(self.flock.positions(), LINK * self.body_length());
+        let mut sizes = vec![0; self.fishes.len()];
+        labels.into_iter().for_each(|label| sizes[label] += 1);
+        let groups = sizes.into_iter().filter(|&size| size >= least).count().max(1);
+        if groups != self.groups {
+            self.regrouped_from = Some(self.groups);
+        }
+        self.groups = groups;
+    }
+
+    fn note_wishes(&mut self) {
+        let shown = (self.options.parameters.annotated as usize).min(self.fishes.len());
+        self.wishes = (0..shown).map(|index| self.flock.request(index)).collect();
+    }
+
+    fn batch(&self, name: String) -> Batch {
+        let species = &self.options.species;
+        let mut batch = Batch::new(
+            name,
+            species.name.as_str(),
+            self.form.mesh.clone(),
+            self.form.material.clone(),
+        );
+        batch.alive = true;
+        batch.ids = self.flock.ids().to_vec();
+        batch.velocities = self.fishes.iter().map(|fish| fish.motion).collect();
+        batch.tints = self.fishes.iter().map(|fish| fish.tint).collect();
+        let joints = self.form.spine.joint_count();
+        batch.poses = vec![Transform::IDENTITY; joints * self.fishes.len()];
+        batch.transforms = vec![Transform::IDENTITY; self.fishes.len()];
+        let bodies = batch.poses.par_chunks_mut(joints).zip(&mut batch.transforms);
+        bodies.zip(&self.fishes).enumerate().with_min_len(TASK).for_each(
+            |(index, ((pose, placement), fish))| {
+                spine_pose(&self.form.spine, &fish.swim, pose);
+                *placement = self.placement(index);
+            },
+        );
+        batch
+    }
+
+    fn annotate(&self, annotations: &mut Vec<Annotation>) {
+        let reach = 3.0 * self.body_length();
+        for (index, wish) in self.wishes.iter().enumerate().take(self.fishes.len()) {
+            let from = self.flock.positions()[index];
+            let mut show = |role: &str, to: Vec3| {
+                let subject = self.flock.ids()[index];
+                let mark = Mark::Line { from, to };
+                annotations.push(Annotation { subject, role: role.to_owned(), mark });
+            };
+            show("heading", from + self.flock.headings()[index] * reach);
+            show(self.fishes[index].mode.name(), from + *wish * reach);
+        }
+    }
+
+    fn events(&self, publication: &mut Publication) {
+        let moment = publication.moment;
+        let mut happen =
+            |kind: &'static str, subject: Id, object: Option<Id>, groups: Option<usize>| {
+                let data = groups.map(|groups| (String::from("groups"), (groups as f64).into()));
+                publication.events.push(Event {
+                    tick: moment.tick,
+                    time: moment.time,
+                    kind: Cow::Borrowed(kind),
+                    subject,
+                    object,
+                    data: data.into_iter().collect(),
+                });
+            };
+        for (fish, &id) in self.fishes.iter().zip(self.flock.ids()) {
+            if fish.startled_by != NOTHING {
+                happen("startled", id, Some(fish.startled_by), None);
+            }
+        }
+        if let (Some(before), Some(&first)) = (self.regrouped_from, self.flock.ids().first()) {
+            let kind = if self.groups > before { "split" } else { "rejoined" };
+            happen(kind, first, None, Some(self.groups));
+        }
+    }
+}
+
+impl Population for FishSchool {
+    fn kind(&self) -> &str {
+        "fish_school"
+    }
+
+    fn settle(&mut self, growth: &mut Growth) -> Result<()> {
+        let FishSchoolOptions { count, center, half, ref species, .. } = self.options;
+        let variation = species.variation;
+        self.flock = Flock::new(self.options.flock.clone(), growth.moment.seed)?;
+        let (length, cruise) = (self.body_length(), self.flock.parameters.cruise_speed);
+        for id in growth.identities(count)? {
+            let mut random = growth.moment.random(id, BIRTH);
+            let environment = &*growth.environment;
+            let mut draw = || center + half * random.in_ball();
+            let free = |place: &Vec3| way_out(*place, length, environment) == Vec3::ZERO;
+            let drawn = (0..32).map(|_| draw()).find(free);
+            let place = drawn.unwrap_or_else(|| center + way_out(center, length, environment));
+            let level = random.direction() * Vec3::new(1.0, 0.2, 1.0);
+            let velocity = level.normalize_or(Vec3::Z) * (cruise * length);
+            self.flock.push(id, place, velocity)?;
+            self.fishes.push(Fish::born(variation, velocity, &mut random));
+        }
+        Ok(())
+    }
+
+    fn sense(&mut self, view: &View) -> Result<()> {
+        self.look_out(view);
+        let influences = view.environment.influence(self.flock.positions(), view.moment.time)?;
+        self.scratch.flows.clear();
+        self.scratch.flows.extend(influences.iter().map(|one| one.flow));
+        self.with_surroundings(view, |flock, surroundings| {
+            flock.sense(surroundings);
+            Ok(())
+        })
+    }
+
+    fn decide(&mut self, view: &View) -> Result<()> {
+        self.with_surroundings(view, |flock, surroundings| {
+            flock.decide(surroundings);
+            Ok(())
+        })
+    }
+
+    fn advance(&mut self, view: &View) -> Result<()> {
+        let dt = view.moment.dt;
+        self.prepare(dt);
+        self.note_wishes();
+        self.with_surroundings(view, |flock, surroundings| flock.advance(dt, surroundings))?;
+        self.follow(dt);
+        let cruise = self.flock.parameters.cruise_speed * self.body_length();
+        let SchoolParameters { goal_pace, home_radius, .. } = self.options.parameters;
+        let home = (self.options.home.unwrap_or(self.options.center), home_radius);
+        self.course.advance(cruise * goal_pace * dt, home, view.environment, &view.moment);
+        self.count_groups(view.moment.tick);
+        Ok(())
+    }
+
+    fn grow(&mut self, _growth: &mut Growth) -> Result<()> {
+        Ok(())
+    }
+
+    fn publish(&self, publication: &mut Publication) -> Result<()> {
+        let name = free_name(&publication.scene, &self.options.species.name);
+        publication.scene.batches.push(self.batch(name));
+        self.annotate(&mut publication.scene.annotations);
+        self.events(publication);
+        Ok(())
+    }
+
+    fn count(&self) -> usize {
+        self.fishes.len()
+    }
+
+    fn save(&self) -> Result<Vec<u8>> {
+        self.to_saved()
+    }
+
+    fn restore(&mut self, bytes: &[u8]) -> Result<()> {
+        *self = Self::from_saved(bytes)?;
+        Ok(())
+    }
+
+    fn parameters(&self) -> Option<&dyn Parameters> {
+        Some(self)
+    }
+
+    fn parameters_mut(&mut self) -> Option<&mut dyn Parameters> {
+        Some(self)
+    }
+
+    fn inspect(&self, id: Id) -> Option<Inspection> {
+        let index = self.flock.ids().iter().position(|&one| one == id)?;
+        Some(self.inspect_one(index))
+    }
+
+    fn statistics(&self) -> BTreeMap<String, f64> {
+        self.figures()
+    }
+
+    fn default_name(&self) -> String {
+        self.options.species.name.clone()
+    }
+}
+
+/// Those of the flock and those of the school, as one set.
+impl Parameters for FishSchool {
+    fn descriptions(&self) -> Vec<Parameter> {
+        let mut all = self.flock.parameters.descriptions();
+        all.append(&mut self.options.parameters.descriptions());
+        all
+    }
+
+    fn get(&self, name: &str) -> Option<f64> {
+        self.flock.parameters.get(name).or_else(|| self.options.parameters.get(name))
+    }
+
+    fn set(&mut self, name: &str, value: f64) -> Result<()> {
+        if self.options.parameters.get(name).is_some() {
+            return self.options.parameters.set(name, value);
+        }
+        if self.flock.parameters.get(name).is_none() {
+            let known = self.descriptions().into_iter().map(|one| one.name).collect();
+            return Err(Error::Unknown { kind: "parameter", name: name.to_owned(), known });
+        }
+        let mut changed = self.flock.parameters.clone();
+        changed.set(name, value)?;
+        changed.check()?;
+        self.flock.parameters = changed;
+        Ok(())
+    }
+}
