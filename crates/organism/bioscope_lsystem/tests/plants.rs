@@ -60,3 +60,13 @@ fn staghorn() {
 fn tube_sponge() {
     check("tube_sponge", 0.3..=0.8, 4000);
 }
+
+#[test]
+fn red_alga() {
+    check("red_alga", 0.2..=0.6, 4000);
+}
+
+#[test]
+fn table_coral() {
+    check("table_coral", 0.2..=0.6, 4000);
+}
