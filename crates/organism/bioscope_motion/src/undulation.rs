@@ -311,8 +311,7 @@ pub fn spine_pose(spine: &Spine, swim: &SwimState, out: &mut [Transform]) {
         let (fore, hind) = (spine.cuts[link], spine.cuts[link + 1]);
         let slope = (sideways(link) - sideways(link + 1)) / (hind - fore);
         let (bend, lift) = curve(swim, 0.5 * (fore + hind));
-        let yaw = math::asin(slope.clamp(-0.95, 0.95)) + bend;
-        let rotation = turn_then_lift(yaw, lift);
+        let rotation = turn_then_lift(slope, bend, lift);
         *pose = Transform::new(point, rotation, 1.0);
         let step = rotation * Vec3::new(0.0, 0.0, (hind - fore) * spine.length);
         let rest = Vec3::new(0.0, 0.0, spine.along(0.5 * (fore + hind)));
@@ -339,20 +338,30 @@ fn curve(swim: &SwimState, x: f32) -> (f32, f32) {
     (bend * place, swim.lift * place)
 }
 
-/// Rotation about Y (to the left), then about the own X so that the head rises.
-fn turn_then_lift(yaw: f32, lift: f32) -> Quat {
-    let turn = Quat::from_xyzw(0.0, math::sin(0.5 * yaw), 0.0, math::cos(0.5 * yaw));
-    let raise = Quat::from_xyzw(-math::sin(0.5 * lift), 0.0, 0.0, math::cos(0.5 * lift));
-    turn * raise
+/// Rotation about Y by the angle of this sine and by `bend` (to the left), then about the own X so that the
+/// head rises by `lift`.
+fn turn_then_lift(sine: f32, bend: f32, lift: f32) -> Quat {
+    // Half angles by their tangents: square roots are all that is needed.
+    let sine = sine.clamp(-0.95, 0.95);
+    let wave = sine / (1.0 + math::sqrt(1.0 - sine * sine));
+    let (bend, lift) = (half_tangent(bend), half_tangent(lift));
+    let turn = Quat::from_xyzw(0.0, wave + bend, 0.0, 1.0 - wave * bend);
+    (turn * Quat::from_xyzw(-lift, 0.0, 0.0, 1.0)).normalize()
+}
+
+/// Tangent of half an angle of up to about one radian (three terms of the series).
+fn half_tangent(angle: f32) -> f32 {
+    let half = 0.5 * angle;
+    let square = half * half;
+    half * (1.0 + square * (1.0 / 3.0 + square * (2.0 / 15.0)))
 }
 
 fn fin_rotation(hinge: &FinHinge, swim: &SwimState) -> Quat {
     let beat = math::sin(swim.fan + if hinge.side > 0.0 { 0.0 } else { 2.6 });
     let inside = (swim.bend[0] * hinge.side).max(0.0) / GREATEST_BEND;
     let share = swim.fanning * (0.35 + 0.65 * beat) + 0.8 * inside;
-    let half = 0.5 * hinge.swing * share.clamp(-0.5, 1.0);
-    let axis = hinge.axis * math::sin(half);
-    Quat::from_xyzw(axis.x, axis.y, axis.z, math::cos(half))
+    let axis = hinge.axis * half_tangent(hinge.swing * share.clamp(-0.5, 1.0));
+    Quat::from_xyzw(axis.x, axis.y, axis.z, 1.0).normalize()
 }
 
 #[cfg(test)]

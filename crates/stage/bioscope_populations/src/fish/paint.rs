@@ -42,9 +42,15 @@ pub fn paint(species: &FishSpecies, trunk: &Trunk, fins: &[Fin], atlas: &Atlas) 
     Texture::new(WIDTH, HEIGHT, pixels)
 }
 
-/// Two numbers that turn a soft edge into smoothstep bounds: full inside, gone outside.
+/// 1 within `reach`, 0 beyond, softly between.
 fn falloff(distance: f32, reach: f32, softness: f32) -> f32 {
     1.0 - math::smoothstep(reach * (1.0 - softness), reach * (1.0 + softness) + 1e-5, distance)
+}
+
+/// 1 from `low` to `high`, fading out over `fade` on either side.
+fn within(value: f32, [low, high]: [f32; 2], fade: f32) -> f32 {
+    math::smoothstep(low - fade, low + fade, value)
+        * (1.0 - math::smoothstep(high - fade, high + fade, value))
 }
 
 struct Painter<'a> {
@@ -180,27 +186,30 @@ impl<'a> Painter<'a> {
     fn patch(&self, patch: &Patch, [at, level]: Place, point: Vec3) -> f32 {
         let aside = (at - patch.place[0]) / patch.size[0];
         let above = (level - patch.place[1]) / patch.size[1];
+        let out = aside.hypot(above);
+        if out > 1.3 + patch.softness {
+            return 0.0;
+        }
         let wobble = 0.12 * self.noise.fractal(point * 22.0, 2);
-        patch.strength * falloff(aside.hypot(above) + wobble, 1.0, patch.softness)
+        patch.strength * falloff(out + wobble, 1.0, patch.softness)
     }
 
     fn bar(&self, bar: &Bar, [at, level]: Place, point: Vec3) -> f32 {
+        let nearest = |at: f32| bar.at.iter().map(|one| (at - one).abs()).fold(f32::MAX, f32::min);
+        if nearest(at) > 2.5 * bar.width {
+            return 0.0;
+        }
         let ragged = bar.ragged * self.noise.fractal(point * 30.0, 3);
-        let shift = 0.6 * bar.width * ragged;
-        let nearest = bar.at.iter().map(|one| (at + shift - one).abs()).fold(f32::MAX, f32::min);
-        let across = falloff(nearest, 0.5 * bar.width * (1.0 + 0.4 * ragged), bar.softness);
-        let fade = 0.06;
-        let inside = math::smoothstep(bar.levels[0] - fade, bar.levels[0] + fade, level)
-            * (1.0 - math::smoothstep(bar.levels[1] - fade, bar.levels[1] + fade, level));
-        bar.strength * across * inside
+        let half = 0.5 * bar.width * (1.0 + 0.4 * ragged);
+        let across = falloff(nearest(at + 0.6 * bar.width * ragged), half, bar.softness);
+        bar.strength * across * within(level, bar.levels, 0.06)
     }
 
     fn spots(&self, spots: &Spots, number: u32, [at, level]: Place, point: Vec3) -> f32 {
-        let within = |value: f32, [low, high]: [f32; 2], fade: f32| {
-            math::smoothstep(low - fade, low + fade, value)
-                * (1.0 - math::smoothstep(high - fade, high + fade, value))
-        };
         let inside = within(at, spots.along, 0.03) * within(level, spots.levels, 0.05);
+        if inside <= 0.0 {
+            return 0.0;
+        }
         let cell = Noise::new(31 + number).cell(Vec3::new(0.0, point.y, point.z) / spots.spacing);
         let radius = spots.size * (0.6 + 0.6 * cell.random);
         spots.strength * inside * falloff(cell.nearest, radius, 0.35)
@@ -209,7 +218,8 @@ impl<'a> Painter<'a> {
     /// Brightness from scales and mottling, about 1.
     fn texture(&self, [at, level]: Place, point: Vec3) -> f32 {
         let skin = &self.species.skin;
-        let mottle = 1.0 + 0.5 * skin.mottle * self.noise.fractal(point * 45.0, 4);
+        let mottle = if skin.mottle > 0.0 { self.noise.fractal(point * 45.0, 4) } else { 0.0 };
+        let mottle = 1.0 + 0.5 * skin.mottle * mottle;
         if skin.scale <= 0.0 || skin.scaling <= 0.0 {
             return mottle;
         }

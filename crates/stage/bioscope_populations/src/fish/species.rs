@@ -21,7 +21,7 @@ mod library;
 pub type Place = [f32; 2];
 
 /// One species of fish.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FishSpecies {
     /// Short name, as worlds use it.

@@ -178,7 +178,8 @@ proptest! {
         edge in prop::collection::vec((-0.2f32..1.3, -0.8f32..0.8), 2..9), bow in -0.5f32..0.5,
         thickness in 0f32..0.1, flare in -10f32..100.0, eye in (0.005f32..0.4, 0f32..1.0, 0.001f32..0.1),
     ) {
-        let mut species = (*FishSpecies::named("anthias").unwrap()).clone(); // the library knows it
+        let text = FishSpecies::named("anthias").unwrap().text().to_owned(); // the library knows it
+        let mut species = FishSpecies::parse(&text, "anthias").unwrap(); // and can read it
         species.length = length;
         species.outline.at = vec![0.0, 0.1, 0.3, 0.6, 0.8];
         species.outline.back = heights.clone();
