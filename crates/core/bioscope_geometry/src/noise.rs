@@ -118,7 +118,8 @@ impl Noise {
         base: [i32; 3],
         planes: impl Fn(i32) -> [i32; N],
     ) -> [[u32; N]; 3] {
-        let wrap = |one: i32| if self.period > 0 { one.rem_euclid(self.period) } else { one } as u32;
+        let wrap =
+            |one: i32| if self.period > 0 { one.rem_euclid(self.period) } else { one } as u32;
         let seed = self.seed.wrapping_mul(0x9E37_79B1);
         let [x, y, z] = base.map(planes);
         [

@@ -1,5 +1,5 @@
 //! Measures the rasterizer on a reef-like scene and writes pictures to look at:
-//! `cargo run --release -p bioscope_geometry --example look -- FOLDER [eyes|pictures]`.
+//! `cargo run --release -p bioscope_geometry --example look -- FOLDER [eyes|pictures|stills]`.
 
 mod reef;
 
@@ -7,20 +7,21 @@ use std::path::Path;
 use std::time::Instant;
 
 use bioscope_core::Vec3;
-use bioscope_geometry::{Camera, Options, Prepared, Projection, Rasterizer, Scene, View};
+use bioscope_geometry::{Camera, Options, Projection, Rasterizer, Scene, View};
 
 fn main() {
-    let folder = std::env::args().nth(1).unwrap_or_else(|| std::env::temp_dir().display().to_string());
+    let folder =
+        std::env::args().nth(1).unwrap_or_else(|| std::env::temp_dir().display().to_string());
     let scene = reef::scene(12.3);
     let triangles: usize =
         scene.batches.iter().map(|batch| batch.mesh.triangles.len() * batch.ids.len()).sum();
     println!("triangles {triangles}");
-    let part = std::env::args().nth(2);
-    if part.as_deref() != Some("pictures") {
+    let part = std::env::args().nth(2).unwrap_or_default();
+    if part != "pictures" && part != "stills" {
         eyes(&scene, Path::new(&folder));
     }
-    if part.as_deref() != Some("eyes") {
-        pictures(&scene, Path::new(&folder));
+    if part != "eyes" {
+        pictures(&scene, Path::new(&folder), part != "stills");
     }
 }
 
@@ -43,7 +44,7 @@ fn eyes(scene: &Scene, folder: &Path) {
         let cameras: Vec<_> = (0..300).map(|fish| eye(scene, fish, projection)).collect();
         let mut best = f64::INFINITY;
         let mut preparing = 0.0;
-        for _ in 0..8 {
+        for _ in 0..3 {
             let start = Instant::now();
             let prepared = rasterizer.prepare(scene, &Options::eye());
             let ready = start.elapsed().as_secs_f64();
@@ -55,24 +56,37 @@ fn eyes(scene: &Scene, folder: &Path) {
         }
         println!("{name}: {:.0} views/s (prepare {:.2} ms)", 300.0 / best, preparing * 1e3);
         let prepared = rasterizer.prepare(scene, &Options::eye());
-        println!("{name}: {:.3} ms per view on one undisturbed thread", undisturbed(&prepared, &cameras[..50]));
+        let work = effort(|| drop(prepared.look_many(&cameras, 64, 64)));
+        println!("{name}: {:.3} ms of processor time per view", work / cameras.len() as f64);
         write(&prepared.look(&cameras[0], 64, 64), &folder.join(format!("eye_{name}.png")));
         write(&prepared.look(&cameras[0], 512, 512), &folder.join(format!("eye_{name}_large.png")));
     }
 }
 
-/// Mean over the views of the least time of a view, milliseconds.
-fn undisturbed(prepared: &Prepared, cameras: &[Camera]) -> f64 {
-    let time = |camera: &Camera| {
-        let start = Instant::now();
-        prepared.look_many(std::slice::from_ref(camera), 64, 64);
-        start.elapsed().as_secs_f64()
-    };
-    let least = |camera| (0..15).map(|_| time(camera)).fold(f64::INFINITY, f64::min);
-    cameras.iter().map(least).sum::<f64>() / cameras.len() as f64 * 1e3
+/// Processor time that this process has used, seconds; none where the system does not tell. Unlike
+/// the clock on the wall it does not count what other programs take.
+fn processor_time() -> Option<f64> {
+    let text = std::fs::read_to_string("/proc/self/stat").ok()?;
+    let fields: Vec<f64> =
+        text.rsplit(')').next()?.split(' ').filter_map(|field| field.parse().ok()).collect();
+    Some((fields.get(10)? + fields.get(11)?) / 100.0)
 }
 
-fn pictures(scene: &Scene, folder: &Path) {
+/// Mean processor time of one run of `work` over about a second, milliseconds.
+fn effort(mut work: impl FnMut()) -> f64 {
+    let Some(start) = processor_time() else { return f64::NAN };
+    let mut runs = 0.0;
+    loop {
+        work();
+        runs += 1.0;
+        let used = processor_time().unwrap_or(f64::MAX) - start;
+        if used > 1.0 {
+            return used / runs * 1e3;
+        }
+    }
+}
+
+fn pictures(scene: &Scene, folder: &Path, measured: bool) {
     let views = [
         ("side", Vec3::new(-6.0, -4.2, 4.0), Vec3::new(0.5, -3.7, -4.0)),
         ("near", Vec3::new(-1.2, -3.4, -0.2), Vec3::new(0.0, -3.1, -3.0)),
@@ -81,33 +95,32 @@ fn pictures(scene: &Scene, folder: &Path) {
         ("above", Vec3::new(-4.0, 2.0, 8.0), Vec3::new(0.0, -1.0, -3.0)),
     ];
     let mut rasterizer = Rasterizer::default();
-    rasterizer.prepare(scene, &Options::picture());
+    let options = Options::picture();
     for (name, position, target) in views {
         let camera = Camera::looking_at(position, target, 0.85);
-        let mut best = f64::INFINITY;
-        let mut preparing = 0.0;
-        let mut kept = None;
-        for _ in 0..4 {
+        let prepared = rasterizer.prepare(scene, &options);
+        write(&prepared.look(&camera, 1280, 720), &folder.join(format!("{name}.png")));
+        if !measured {
+            continue;
+        }
+        let time = |_| {
             let start = Instant::now();
-            let prepared = rasterizer.prepare(scene, &Options::picture());
-            let ready = start.elapsed().as_secs_f64();
-            let view = prepared.look(&camera, 1280, 720);
-            let all = start.elapsed().as_secs_f64();
-            if all < best {
-                (best, preparing) = (all, ready);
-            }
-            kept = Some(view);
-        }
-        println!("{name}: {:.1} ms (prepare {:.1} ms)", best * 1e3, preparing * 1e3);
-        if let Some(view) = kept {
-            write(&view, &folder.join(format!("{name}.png")));
-        }
+            rasterizer.prepare(scene, &options).look(&camera, 1280, 720);
+            start.elapsed().as_secs_f64() * 1e3
+        };
+        let best = (0..5).map(time).fold(f64::INFINITY, f64::min);
+        let looking = effort(|| drop(prepared.look(&camera, 1280, 720)));
+        let preparing = effort(|| drop(rasterizer.prepare(scene, &options)));
+        println!(
+            "{name}: {best:.1} ms; processor time {preparing:.1} ms to prepare, {looking:.1} ms to look"
+        );
     }
 }
 
 fn write(view: &View, path: &Path) {
     let file = std::fs::File::create(path).expect("a writable folder");
-    let mut encoder = png::Encoder::new(std::io::BufWriter::new(file), view.width as u32, view.height as u32);
+    let mut encoder =
+        png::Encoder::new(std::io::BufWriter::new(file), view.width as u32, view.height as u32);
     encoder.set_color(png::ColorType::Rgb);
     let mut writer = encoder.write_header().expect("a header");
     writer.write_image_data(&view.developed(1.0)).expect("a written picture");

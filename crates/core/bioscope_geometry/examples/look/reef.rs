@@ -19,7 +19,7 @@ pub fn scene(time: f64) -> Scene {
         surface: Some(0.0),
         absorption: [0.32, 0.07, 0.03],
         scattering: [0.03; 3],
-        glow: [0.05, 0.32, 0.5],
+        glow: [0.015, 0.14, 0.27],
         caustics: 1.0,
         caustic_scale: 0.5,
         shafts: 0.8,
@@ -40,7 +40,8 @@ pub fn scene(time: f64) -> Scene {
 fn ground() -> Terrain {
     let height = |column: usize, row: usize| {
         let (x, z) = (column as f32 * 0.3, row as f32 * 0.3);
-        let waves = 0.8 * (x * 0.35).sin() * (z * 0.27 + 1.0).cos() + 0.25 * (x * 0.9 + z * 0.6).sin();
+        let waves =
+            0.8 * (x * 0.35).sin() * (z * 0.27 + 1.0).cos() + 0.25 * (x * 0.9 + z * 0.6).sin();
         -6.0 + waves + 0.03 * (x * 5.0 + (z * 1.3).sin()).sin() + ((z - 24.0) / 14.0).powi(2) * 0.8
     };
     let heights = (0..160 * 160).map(|index| height(index % 160, index / 160));
@@ -85,7 +86,11 @@ fn tube(rings: usize, sides: usize, ring: impl Fn(f32) -> (Vec3, [f32; 2])) -> M
 fn joints(names: usize, place: impl Fn(usize) -> Vec3) -> Vec<Joint> {
     let parent = |joint: usize| joint.checked_sub(1).map(|parent| parent as u8);
     (0..names)
-        .map(|joint| Joint { name: format!("j{joint}"), parent: parent(joint), rest: Transform::at(place(joint)) })
+        .map(|joint| Joint {
+            name: format!("j{joint}"),
+            parent: parent(joint),
+            rest: Transform::at(place(joint)),
+        })
         .collect()
 }
 
@@ -95,7 +100,8 @@ fn bind(mesh: &mut Mesh, joints: Vec<Joint>, along: impl Fn(Vec3) -> f32) {
     let place = |&point: &Vec3| along(point).clamp(0.0, last as f32 - 1e-3);
     let places: Vec<f32> = mesh.positions.iter().map(place).collect();
     let indices = places.iter().map(|&place| [place as u8, place as u8 + 1, 0, 0]).collect();
-    let weights = places.iter().map(|&place| [1.0 - place.fract(), place.fract(), 0.0, 0.0]).collect();
+    let weights =
+        places.iter().map(|&place| [1.0 - place.fract(), place.fract(), 0.0, 0.0]).collect();
     mesh.skin = Some(Skin { joints, indices, weights });
 }
 
@@ -103,19 +109,27 @@ fn rocks(scene: &mut Scene, ground: &Terrain, id: &mut u32) {
     for kind in 0..6 {
         let detail = 12 + kind * 4;
         let mut random = Random::new(11, kind as u32, 0, PLACE);
-        let bumps: Vec<_> = (0..10).map(|_| (random.direction(), random.range(-0.2, 0.35))).collect();
+        let bumps: Vec<_> =
+            (0..10).map(|_| (random.direction(), random.range(-0.2, 0.35))).collect();
         let mut mesh = tube(detail, detail + 6, |along| {
             let polar = along * PI;
             (Vec3::new(0.0, 0.0, polar.cos()), [polar.sin(); 2])
         });
         for point in &mut mesh.positions {
-            let push = |sum: f32, (way, size): &(Vec3, f32)| sum + size * (point.dot(*way) * 4.0).sin() * 0.35;
+            let push = |sum: f32, (way, size): &(Vec3, f32)| {
+                sum + size * (point.dot(*way) * 4.0).sin() * 0.35
+            };
             *point *= bumps.iter().fold(1.0, push);
         }
         mesh.compute_normals();
         let warm = [[0.35, 0.3, 0.25], [0.5, 0.2, 0.25], [0.45, 0.35, 0.15]][kind % 3];
         let stone = Material { color: warm, texture: Some(grain()), ..Material::default() };
-        let mut batch = Batch::new(format!("rock/{kind}"), "rock", Arc::new(mesh.with_levels()), Arc::new(stone));
+        let mut batch = Batch::new(
+            format!("rock/{kind}"),
+            "rock",
+            Arc::new(mesh.with_levels()),
+            Arc::new(stone),
+        );
         for _ in 0..10 {
             let (x, z) = (random.range(-14.0, 14.0), random.range(-16.0, 12.0));
             let turn = Quat::from_axis_angle(random.direction(), random.range(0.0, 3.0));
@@ -152,7 +166,11 @@ fn plants(scene: &mut Scene, ground: &Terrain, id: &mut u32, time: f32) {
                 let width = 0.05 * (along * PI * 0.95 + 0.1).sin();
                 for side in [-1.0, 0.0, 1.0] {
                     let lift = 0.02 * (along * 9.0).sin() - 0.12 * along * along;
-                    leaf.positions.push(Vec3::new(side * width, along * 0.45, lift + 0.012 * side * side));
+                    leaf.positions.push(Vec3::new(
+                        side * width,
+                        along * 0.45,
+                        lift + 0.012 * side * side,
+                    ));
                 }
             }
             for step in 0..10 {
@@ -161,28 +179,45 @@ fn plants(scene: &mut Scene, ground: &Terrain, id: &mut u32, time: f32) {
                 leaf.triangles.extend([[a + 1, a + 2, a + 4], [a + 2, a + 5, a + 4]]);
             }
             leaf.compute_normals();
-            mesh.append(&leaf, &Transform::new(Vec3::new(0.0, 0.0, height), turn, random.range(0.7, 1.2)));
+            mesh.append(
+                &leaf,
+                &Transform::new(Vec3::new(0.0, 0.0, height), turn, random.range(0.7, 1.2)),
+            );
         }
-        bind(&mut mesh, joints(JOINTS, |joint| Vec3::Z * joint as f32 * 0.28), |point| point.z / 0.28);
-        let mut batch = Batch::new(format!("kelp/{kind}"), "kelp", Arc::new(mesh.with_levels()), green.clone());
+        bind(&mut mesh, joints(JOINTS, |joint| Vec3::Z * joint as f32 * 0.28), |point| {
+            point.z / 0.28
+        });
+        let mut batch =
+            Batch::new(format!("kelp/{kind}"), "kelp", Arc::new(mesh.with_levels()), green.clone());
         batch.alive = true;
         for _ in 0..10 {
             let (x, z) = (random.range(-12.0, 12.0), random.range(-14.0, 10.0));
-            let upright = Quat::from_rotation_x(-PI / 2.0) * Quat::from_rotation_z(random.range(0.0, TAU));
+            let upright =
+                Quat::from_rotation_x(-PI / 2.0) * Quat::from_rotation_z(random.range(0.0, TAU));
             let base = Vec3::new(x, ground.height(x, z), z);
             batch.transforms.push(Transform::new(base, upright, random.range(0.5, 1.3)));
             batch.ids.push(*id);
             *id += 1;
-            sway(&mut batch.poses, JOINTS, |joint| {
-                0.06 * joint.sqrt() * (time * 0.9 + x * 0.4 + joint * 0.5).sin() + 0.03
-            }, Vec3::Z * 0.28, Vec3::X);
+            sway(
+                &mut batch.poses,
+                JOINTS,
+                |joint| 0.06 * joint.sqrt() * (time * 0.9 + x * 0.4 + joint * 0.5).sin() + 0.03,
+                Vec3::Z * 0.28,
+                Vec3::X,
+            );
         }
         scene.batches.push(batch);
     }
 }
 
 /// Poses of a chain of joints `step` apart, each turned by an angle about `axis` against the one before.
-fn sway(poses: &mut Vec<Transform>, count: usize, angle: impl Fn(f32) -> f32, step: Vec3, axis: Vec3) {
+fn sway(
+    poses: &mut Vec<Transform>,
+    count: usize,
+    angle: impl Fn(f32) -> f32,
+    step: Vec3,
+    axis: Vec3,
+) {
     let mut pose = Transform::IDENTITY;
     for joint in 0..count {
         if joint > 0 {
@@ -206,7 +241,8 @@ fn fish_skin() -> Arc<Texture> {
         };
         [red as u8, green as u8, blue as u8, 255]
     };
-    let pixels = (0..256 * 128).map(|index| pixel((index % 256) as f32 / 256.0, (index / 256) as f32 / 128.0));
+    let pixels = (0..256 * 128)
+        .map(|index| pixel((index % 256) as f32 / 256.0, (index / 256) as f32 / 128.0));
     Arc::new(Texture::new(256, 128, pixels.collect()))
 }
 
@@ -216,9 +252,14 @@ fn fishes(scene: &mut Scene, id: &mut u32, time: f32) {
     let mut mesh = tube(18, 10, |along| {
         let radius = 0.22 * profile(along * 0.95);
         let tail = ((along - 0.82) / 0.18).max(0.0) * 0.14;
-        (Vec3::new(0.0, 0.0, 0.5 - along), [(radius * 0.45 * (1.0 - along * 0.6)).max(0.002), radius + tail])
+        (
+            Vec3::new(0.0, 0.0, 0.5 - along),
+            [(radius * 0.45 * (1.0 - along * 0.6)).max(0.002), radius + tail],
+        )
     });
-    bind(&mut mesh, joints(JOINTS, |joint| Vec3::Z * (0.5 - joint as f32 * 0.2)), |point| (0.5 - point.z) * 5.0);
+    bind(&mut mesh, joints(JOINTS, |joint| Vec3::Z * (0.5 - joint as f32 * 0.2)), |point| {
+        (0.5 - point.z) * 5.0
+    });
     let scales = Material {
         texture: Some(fish_skin()),
         color: [1.0; 3],
@@ -226,7 +267,8 @@ fn fishes(scene: &mut Scene, id: &mut u32, time: f32) {
         roughness: 0.35,
         ..Material::default()
     };
-    let mut batch = Batch::new("anchovy", "anchovy", Arc::new(mesh.with_levels()), Arc::new(scales));
+    let mut batch =
+        Batch::new("anchovy", "anchovy", Arc::new(mesh.with_levels()), Arc::new(scales));
     batch.alive = true;
     let mut random = Random::new(17, 0, 0, PLACE);
     for _ in 0..300 {
@@ -253,7 +295,9 @@ fn motes(scene: &mut Scene, id: &mut u32) {
     for (name, radius, glassy) in [("plankton", 0.002, false), ("bubble", 0.012, true)] {
         let count = if glassy { 200 } else { 1800 };
         let mut random = Random::new(19, u32::from(glassy), 0, PLACE);
-        let place = |_| Vec3::new(random.range(-8.0, 8.0), random.range(-6.0, -0.5), random.range(-10.0, 6.0));
+        let place = |_| {
+            Vec3::new(random.range(-8.0, 8.0), random.range(-6.0, -0.5), random.range(-10.0, 6.0))
+        };
         scene.points.push(Points {
             name: name.into(),
             species: name.into(),

@@ -60,7 +60,8 @@ impl Quadric {
         let offset = -normal.dot(point);
         Self {
             diagonal: normal * normal * weight,
-            mixed: DVec3::new(normal.y * normal.z, normal.z * normal.x, normal.x * normal.y) * weight,
+            mixed: DVec3::new(normal.y * normal.z, normal.z * normal.x, normal.x * normal.y)
+                * weight,
             linear: normal * (offset * weight),
             constant: offset * offset * weight,
             weight,
@@ -141,7 +142,8 @@ impl<'a> Simplifier<'a> {
     }
 
     fn nodes_of(&self, triangle: u32) -> Option<[u32; 3]> {
-        self.triangles[triangle as usize].map(|corners| corners.map(|corner| self.nodes[corner as usize]))
+        self.triangles[triangle as usize]
+            .map(|corners| corners.map(|corner| self.nodes[corner as usize]))
     }
 
     /// Marks nodes on edges that only one triangle has, and makes leaving those edges costly.
@@ -222,7 +224,8 @@ impl<'a> Simplifier<'a> {
     /// Whether the surface stays a surface and no triangle turns over.
     fn may_collapse(&self, from: u32, to: u32) -> bool {
         let around = self.neighbors(to);
-        let common = self.neighbors(from).iter().filter(|node| around.binary_search(node).is_ok()).count();
+        let common =
+            self.neighbors(from).iter().filter(|node| around.binary_search(node).is_ok()).count();
         let mut shared = 0;
         for &triangle in &self.touching[from as usize] {
             let Some(nodes) = self.nodes_of(triangle) else { continue };
@@ -246,7 +249,8 @@ impl<'a> Simplifier<'a> {
         let moved = std::mem::take(&mut self.touching[from as usize]);
         let mut pairs = Vec::new();
         for &triangle in &moved {
-            let (Some(corners), Some(nodes)) = (self.triangles[triangle as usize], self.nodes_of(triangle))
+            let (Some(corners), Some(nodes)) =
+                (self.triangles[triangle as usize], self.nodes_of(triangle))
             else {
                 continue;
             };
@@ -286,7 +290,8 @@ impl<'a> Simplifier<'a> {
             return new;
         }
         let uv = |vertex: u32| self.mesh.uvs.get(vertex as usize).copied().unwrap_or_default();
-        let normal = |vertex: u32| self.mesh.normals.get(vertex as usize).copied().unwrap_or(Vec3::ZERO);
+        let normal =
+            |vertex: u32| self.mesh.normals.get(vertex as usize).copied().unwrap_or(Vec3::ZERO);
         let distance = |other: u32| {
             let ([u, v], [s, t]) = (uv(vertex), uv(other));
             (u - s).abs() + (v - t).abs() + 0.1 * (normal(vertex) - normal(other)).length()

@@ -6,7 +6,10 @@
 
 use glam::Vec3;
 
-use super::{Mesh, simplify::{Simplifier, weld}};
+use super::{
+    Mesh,
+    simplify::{Simplifier, weld},
+};
 
 /// A piece of a mesh at one level of detail.
 #[derive(Clone, Debug)]
@@ -101,7 +104,8 @@ impl Ground<'_> {
         let triangles = &self.triangles[first..last];
         if triangles.len() <= self.size {
             let triangles: Vec<_> = triangles.iter().map(|&(_, triangle)| triangle).collect();
-            let places = triangles.iter().flatten().map(|&corner| self.mesh.positions[corner as usize]);
+            let places =
+                triangles.iter().flatten().map(|&corner| self.mesh.positions[corner as usize]);
             let corners = bounds(places);
             return Piece { triangles, corners, error: 0.0, halves: None };
         }
@@ -142,7 +146,8 @@ mod tests {
     use crate::Terrain;
 
     fn ground() -> Mesh {
-        let height = |index: usize| ((index % 60) as f32 * 0.2).sin() * ((index / 60) as f32 * 0.3).cos();
+        let height =
+            |index: usize| ((index % 60) as f32 * 0.2).sin() * ((index / 60) as f32 * 0.3).cos();
         let heights = (0..3600).map(height).collect();
         Terrain::new([0.0, 0.0], 0.5, 60, heights).unwrap().mesh(1.0)
     }
@@ -171,7 +176,8 @@ mod tests {
         assert!(tiles[0].mesh.triangles.len() < 500, "{}", tiles[0].mesh.triangles.len());
         for allowed in [0.0, 0.02, 0.05, 0.1, 0.2] {
             let chosen = |tile: &&Tile| {
-                tile.error <= allowed && tile.parent.is_none_or(|parent| tiles[parent].error > allowed)
+                tile.error <= allowed
+                    && tile.parent.is_none_or(|parent| tiles[parent].error > allowed)
             };
             let meshes: Vec<_> = tiles.iter().filter(chosen).map(|tile| &tile.mesh).collect();
             let place = |bits: [u32; 3]| Vec3::from(bits.map(f32::from_bits));
@@ -180,7 +186,10 @@ mod tests {
             };
             for ([from, to], count) in edges(&meshes) {
                 let on_rim = rim(place(from)) && rim(place(to));
-                assert!(count == 2 || (count == 1 && on_rim), "{allowed}: {count} triangles at an edge");
+                assert!(
+                    count == 2 || (count == 1 && on_rim),
+                    "{allowed}: {count} triangles at an edge"
+                );
             }
         }
     }

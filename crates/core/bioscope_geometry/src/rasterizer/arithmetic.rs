@@ -40,7 +40,8 @@ pub(crate) fn exp(x: f32) -> f32 {
 pub(crate) fn exp_rgb(color: Rgb) -> Rgb {
     const ROUNDING: f32 = 12_582_912.0;
     let x: f32x4 = bytemuck::cast(color);
-    let scaled = (x * f32x4::splat(LOG2_E)).fast_max(f32x4::splat(-126.0)).fast_min(f32x4::splat(126.0));
+    let scaled =
+        (x * f32x4::splat(LOG2_E)).fast_max(f32x4::splat(-126.0)).fast_min(f32x4::splat(126.0));
     let shifted = scaled + f32x4::splat(ROUNDING);
     let rest = scaled - (shifted - f32x4::splat(ROUNDING));
     let bits: i32x4 = bytemuck::cast(shifted);
@@ -99,7 +100,10 @@ mod tests {
                 assert!((channel / x.exp() - 1.0).abs() < 1e-5, "exp_rgb {x}");
             }
             let turn = (step as f32 / 3000.0 + 1.0) * 0.5 * PI;
-            assert!((angle(turn.sin() * 3.0, turn.cos() * 3.0) - turn).abs() < 2e-5, "angle {turn}");
+            assert!(
+                (angle(turn.sin() * 3.0, turn.cos() * 3.0) - turn).abs() < 2e-5,
+                "angle {turn}"
+            );
             let size = (x * 0.2).exp();
             assert!((rough_log2(size) - size.log2()).abs() < 0.09, "log2 {size}");
         }

@@ -41,11 +41,13 @@ impl Rasterizer {
         let mut pictures = BTreeMap::new();
         for batch in &scene.batches {
             let key = batch.mesh.key.number();
-            let known = || self.shapes.remove(&key).unwrap_or_else(|| Arc::new(Shape::new(&batch.mesh)));
+            let known =
+                || self.shapes.remove(&key).unwrap_or_else(|| Arc::new(Shape::new(&batch.mesh)));
             shapes.entry(key).or_insert_with(known);
             if let Some(texture) = &batch.material.texture {
                 let key = texture.key.number();
-                let known = || self.pictures.remove(&key).unwrap_or_else(|| Arc::new(Mipmap::new(texture)));
+                let known =
+                    || self.pictures.remove(&key).unwrap_or_else(|| Arc::new(Mipmap::new(texture)));
                 pictures.entry(key).or_insert_with(known);
             }
         }
@@ -121,7 +123,8 @@ impl Part {
 
     fn of(tile: &Tile, tiles: &[Tile]) -> Self {
         let flaw = |tile: &Tile| Flaw { error: tile.error, corners: tile.corners };
-        let reign = Reign { own: flaw(tile), parent: tile.parent.map(|parent| flaw(&tiles[parent])) };
+        let reign =
+            Reign { own: flaw(tile), parent: tile.parent.map(|parent| flaw(&tiles[parent])) };
         let [low, high] = tile.corners;
         let (center, radius) = ((low + high) * 0.5, (high - low).length() * 0.5);
         let levels = vec![(f32::INFINITY, Arc::new(tile.mesh.clone()))];
@@ -173,7 +176,8 @@ fn sound(mesh: &Arc<Mesh>) -> Arc<Mesh> {
         })
     };
     let skin_fits = mesh.skin.as_ref().is_none_or(|skin| {
-        let known = |joints: &[u8; 4]| joints.iter().all(|&joint| usize::from(joint) < skin.joints.len());
+        let known =
+            |joints: &[u8; 4]| joints.iter().all(|&joint| usize::from(joint) < skin.joints.len());
         skin.indices.len() == count && skin.weights.len() == count && skin.indices.iter().all(known)
     });
     let fits = |length: usize| length == 0 || length == count;

@@ -3,7 +3,10 @@
 use bioscope_core::Vec3;
 use wide::{f32x4, u32x4};
 
-use super::lens::{Lens, Window};
+use super::lens::{BLOCK, Lens, Round, Window};
+
+/// Windows of up to so many groups of samples are asked without looking at blocks first.
+const SMALL: u32 = 24;
 
 /// Owner of samples that see nothing.
 pub(crate) const NOBODY: u32 = u32::MAX;
@@ -34,6 +37,15 @@ impl Tests {
     #[inline(always)]
     pub fn new(sides: [Vec3; 3], plane: Vec3, nearest: f32) -> Self {
         Self { sides, limits: sides.map(limit), plane, nearest }
+    }
+}
+
+impl Tests {
+    /// Which of four rays are inside, given their values at the sides.
+    #[inline(always)]
+    fn inside(&self, values: [f32x4; 3]) -> f32x4 {
+        let [a, b, c] = [0, 1, 2].map(|side| values[side].simd_ge(f32x4::splat(self.limits[side])));
+        a & b & c
     }
 }
 
@@ -84,9 +96,9 @@ impl Sheet {
         owner: u32,
         solid: Option<&dyn Fn(usize, usize) -> bool>,
     ) {
-        match &lens.rays {
+        match &lens.round {
             None => self.cover_flat(window, tests, owner, solid),
-            Some(rays) => self.cover_round(rays, window, tests, owner, solid),
+            Some(round) => self.cover_round(round, window, tests, owner, solid),
         }
     }
 
@@ -105,7 +117,9 @@ impl Sheet {
         for row in window.rows[0]..window.rows[1] {
             let mut span = [window.columns[0] as f32, window.columns[1] as f32];
             let wide = last - first > 4;
-            for (value, test) in all.iter_mut().zip([tests.sides[0], tests.sides[1], tests.sides[2], tests.plane]) {
+            for (value, test) in
+                all.iter_mut().zip([tests.sides[0], tests.sides[1], tests.sides[2], tests.plane])
+            {
                 *value = f32x4::splat(test.y * row as f32 + test.z);
             }
             if wide {
@@ -114,7 +128,10 @@ impl Sheet {
                 }
             }
             let [first, last] = if wide {
-                [(span[0].max(0.0) as u32 / 4).max(first), ((span[1].max(0.0) as u32).div_ceil(4)).min(last)]
+                [
+                    (span[0].max(0.0) as u32 / 4).max(first),
+                    ((span[1].max(0.0) as u32).div_ceil(4)).min(last),
+                ]
             } else {
                 [first, last]
             };
@@ -126,30 +143,76 @@ impl Sheet {
                     columns * tests.sides[1].x + all[1],
                     columns * tests.sides[2].x + all[2],
                 ];
-                let nearness = columns * tests.plane.x + all[3];
-                self.settle(line + group as usize, values, nearness, tests, owner, solid.map(|solid| (solid, group * 4, row)));
+                let inside = tests.inside(values);
+                if inside.any() {
+                    let nearness = columns * tests.plane.x + all[3];
+                    let solid = solid.map(|solid| (solid, group * 4, row));
+                    self.settle(line + group as usize, inside, nearness, tests, owner, solid);
+                }
             }
         }
     }
 
+    /// With tests linear in rays.
     #[inline(always)]
     fn cover_round(
         &mut self,
-        rays: &[[f32x4; 3]],
+        round: &Round,
         window: &Window,
         tests: &Tests,
         owner: u32,
         solid: Option<&dyn Fn(usize, usize) -> bool>,
     ) {
         let [first, last] = [window.columns[0] / 4, window.columns[1].div_ceil(4)];
-        for row in window.rows[0]..window.rows[1] {
+        let rows = window.rows;
+        if (last - first) * (rows[1] - rows[0]) <= SMALL {
+            self.cover_rays(round, [first, last], rows, tests, owner, solid);
+            return;
+        }
+        let widths = tests.sides.map(|side| side.length_squared().sqrt());
+        for down in rows[0] / BLOCK..rows[1].div_ceil(BLOCK) {
+            for aside in first / 2..last.div_ceil(2) {
+                let (center, reach) = round.blocks[(down * round.across + aside) as usize];
+                let missed =
+                    (0..3).any(|side| tests.sides[side].dot(center) < -widths[side] * reach);
+                if missed {
+                    continue;
+                }
+                let rows = [rows[0].max(down * BLOCK), rows[1].min((down + 1) * BLOCK)];
+                let groups = [first.max(aside * 2), last.min(aside * 2 + 2)];
+                self.cover_rays(round, groups, rows, tests, owner, solid);
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn cover_rays(
+        &mut self,
+        round: &Round,
+        groups: [u32; 2],
+        rows: [u32; 2],
+        tests: &Tests,
+        owner: u32,
+        solid: Option<&dyn Fn(usize, usize) -> bool>,
+    ) {
+        for row in rows[0]..rows[1] {
             let line = (row as usize - self.first_row) * self.groups;
-            for group in first..last {
-                let [x, y, z] = rays[row as usize * self.groups + group as usize];
+            let rays = &round.rays[row as usize * self.groups..];
+            for group in groups[0]..groups[1] {
+                let [x, y, z] = rays[group as usize];
                 let along = |test: Vec3| x * test.x + y * test.y + z * test.z;
-                let values = tests.sides.map(along);
-                let nearness = along(tests.plane);
-                self.settle(line + group as usize, values, nearness, tests, owner, solid.map(|solid| (solid, group * 4, row)));
+                let inside = tests.inside(tests.sides.map(along));
+                if inside.any() {
+                    let solid = solid.map(|solid| (solid, group * 4, row));
+                    self.settle(
+                        line + group as usize,
+                        inside,
+                        along(tests.plane),
+                        tests,
+                        owner,
+                        solid,
+                    );
+                }
             }
         }
     }
@@ -158,17 +221,15 @@ impl Sheet {
     fn settle(
         &mut self,
         index: usize,
-        sides: [f32x4; 3],
+        inside: f32x4,
         nearness: f32x4,
         tests: &Tests,
         owner: u32,
         solid: Option<(&dyn Fn(usize, usize) -> bool, u32, u32)>,
     ) {
-        let inside = sides[0].simd_ge(f32x4::splat(tests.limits[0]))
-            & sides[1].simd_ge(f32x4::splat(tests.limits[1]))
-            & sides[2].simd_ge(f32x4::splat(tests.limits[2]));
         let old = self.nearness[index];
-        let mut wins = inside & nearness.simd_gt(old) & nearness.simd_le(f32x4::splat(tests.nearest));
+        let mut wins =
+            inside & nearness.simd_gt(old) & nearness.simd_le(f32x4::splat(tests.nearest));
         if let Some((solid, column, row)) = solid {
             wins = wins & kept(wins, column, row, solid);
         }

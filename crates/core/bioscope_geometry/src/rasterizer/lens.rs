@@ -43,6 +43,20 @@ impl Window {
     }
 }
 
+/// Samples per side of the blocks by which the rays of a fish-eye are bounded.
+pub(crate) const BLOCK: u32 = 8;
+
+/// All rays of a fish-eye, in camera space.
+#[derive(Debug)]
+pub(crate) struct Round {
+    /// Four samples at a time, row by row.
+    pub rays: Vec<[f32x4; 3]>,
+    /// Per block a unit vector and the sine of the angle within which all its rays lie round it.
+    pub blocks: Vec<(Vec3, f32)>,
+    /// Blocks per row.
+    pub across: u32,
+}
+
 /// A projection onto a grid of samples.
 #[derive(Debug)]
 pub(crate) struct Lens {
@@ -55,8 +69,8 @@ pub(crate) struct Lens {
     pub scale: f32,
     /// Middle of the picture.
     middle: [f32; 2],
-    /// Rays of a fish-eye in camera space, four pixels at a time; none for a perspective.
-    pub rays: Option<Vec<[f32x4; 3]>>,
+    /// The rays of a fish-eye; none for a perspective.
+    pub round: Option<Round>,
     /// Greatest angle of a visible ray from the axis.
     reach: f32,
     /// How far images of great circles bend from straight lines, by angle in sixteenths of a radian.
@@ -78,7 +92,7 @@ impl Lens {
             far,
             scale: 1.0,
             middle,
-            rays: None,
+            round: None,
             reach: 0.0,
             bend: Vec::new(),
         };
@@ -93,7 +107,7 @@ impl Lens {
                 lens.scale = middle[0].min(middle[1]) / half;
                 lens.reach = half;
                 lens.bend = (0..52).map(|step| bend(step as f32 / 16.0)).collect();
-                lens.rays = Some(lens.all_rays());
+                lens.round = Some(lens.all_rays());
             }
         }
         lens
@@ -109,9 +123,15 @@ impl Lens {
     pub fn ray(&self, column: usize, row: usize) -> Option<Vec3> {
         let x = column as f32 + 0.5 - self.middle[0];
         let y = self.middle[1] - row as f32 - 0.5;
-        if self.rays.is_none() {
+        if self.round.is_none() {
             return Some(unit(Vec3::new(x, y, -self.scale)));
         }
+        self.round_ray(column, row)
+    }
+
+    fn round_ray(&self, column: usize, row: usize) -> Option<Vec3> {
+        let x = column as f32 + 0.5 - self.middle[0];
+        let y = self.middle[1] - row as f32 - 0.5;
         let size = (x * x + y * y).sqrt();
         let turn = size / self.scale;
         if turn > self.reach {
@@ -121,14 +141,13 @@ impl Lens {
         Some(Vec3::new(x * aside, y * aside, -turn.cos()))
     }
 
-    fn all_rays(&self) -> Vec<[f32x4; 3]> {
+    fn all_rays(&self) -> Round {
         let mut rays = Vec::with_capacity(self.groups() * self.height);
-        // The table must exist for `ray` to take the fish-eye's branch.
-        let lens = Self { rays: Some(Vec::new()), bend: Vec::new(), ..*self };
         for row in 0..self.height {
             for group in 0..self.groups() {
-                let four: [Vec3; 4] =
-                    std::array::from_fn(|lane| lens.ray(group * 4 + lane, row).unwrap_or(Vec3::ZERO));
+                let four: [Vec3; 4] = std::array::from_fn(|lane| {
+                    self.round_ray(group * 4 + lane, row).unwrap_or(Vec3::ZERO)
+                });
                 rays.push([
                     f32x4::from(four.map(|ray| ray.x)),
                     f32x4::from(four.map(|ray| ray.y)),
@@ -136,14 +155,29 @@ impl Lens {
                 ]);
             }
         }
-        rays
+        let block = BLOCK as usize;
+        let (across, down) = (self.width.div_ceil(block), self.height.div_ceil(block));
+        let blocks = (0..across * down).map(|index| self.block(index % across, index / across));
+        Round { rays, blocks: blocks.collect(), across: across as u32 }
+    }
+
+    fn block(&self, column: usize, row: usize) -> (Vec3, f32) {
+        let block = BLOCK as usize;
+        let pixels = (0..block * block).map(|index| [index % block, index / block]);
+        let rays = pixels.filter_map(|[x, y]| self.round_ray(column * block + x, row * block + y));
+        let rays: Vec<Vec3> = rays.collect();
+        let center = unit(rays.iter().sum());
+        let cosine = rays.iter().map(|ray| ray.dot(center)).fold(1.0, f32::min);
+        // A block that spans more than a quarter turn is never skipped.
+        let sine = if cosine > 0.0 { (1.0 - cosine * cosine).sqrt() + 1e-3 } else { 2.0 };
+        (center, sine)
     }
 
     /// Coefficients by which a test that is linear in rays becomes linear in (column, row, 1);
     /// unchanged for a fish-eye. Negated tests have exactly negated coefficients.
     #[inline(always)]
     pub fn coefficients(&self, test: Vec3) -> Vec3 {
-        if self.rays.is_some() {
+        if self.round.is_some() {
             return test;
         }
         let column = test.x / self.scale;
@@ -155,7 +189,7 @@ impl Lens {
     /// A point given in camera space, as this lens sees it.
     #[inline(always)]
     pub fn see(&self, point: Vec3) -> Seen {
-        if self.rays.is_none() {
+        if self.round.is_none() {
             let away = -point.z;
             let size = self.scale / away;
             let (x, y) = (self.middle[0] + point.x * size, self.middle[1] - point.y * size);
@@ -177,7 +211,7 @@ impl Lens {
         let mut low = [a.x.min(b.x).min(c.x), a.y.min(b.y).min(c.y)];
         let mut high = [a.x.max(b.x).max(c.x), a.y.max(b.y).max(c.y)];
         let mut margin = 0.02;
-        if self.rays.is_some() {
+        if self.round.is_some() {
             margin = self.bent(corners)?;
         } else if a.away < self.near || b.away < self.near || c.away < self.near {
             (low, high) = self.clipped(corners)?;
@@ -258,7 +292,7 @@ impl Lens {
         if distance <= radius * 1.01 {
             return Some(all);
         }
-        if self.rays.is_some() {
+        if self.round.is_some() {
             let away = angle(center.x.hypot(center.y), -center.z);
             return (away - (radius / distance).asin() <= self.reach + 0.01).then_some(all);
         }
@@ -277,7 +311,8 @@ impl Lens {
             return Some(all);
         }
         let row = |height: f32| {
-            let ends = [away - radius, away + radius].map(|z| self.middle[1] - height * self.scale / z);
+            let ends =
+                [away - radius, away + radius].map(|z| self.middle[1] - height * self.scale / z);
             [ends[0].min(ends[1]), ends[0].max(ends[1])]
         };
         let (top, bottom) = (row(center.y + radius)[0] - 1.0, row(center.y - radius)[1] + 2.0);
@@ -298,7 +333,9 @@ impl Lens {
     /// Whether two cameras have the same lens.
     pub fn fits(&self, camera: &Camera) -> bool {
         let far = if camera.far > self.near { camera.far } else { f32::INFINITY };
-        self.projection == camera.projection && self.near == camera.near.max(1e-6) && self.far == far
+        self.projection == camera.projection
+            && self.near == camera.near.max(1e-6)
+            && self.far == far
     }
 }
 

@@ -51,7 +51,8 @@ impl Light {
         let sun = unit(*direction);
         let level = Vec3::new(sun.x, 0.0, sun.z) / REFRACTION;
         let sun_below = unit(level + Vec3::Y * (1.0 - level.dot(level)).max(0.1).sqrt());
-        let [absorption, scattering] = [absorption, scattering].map(|each| rgb(each).max(Rgb::ZERO));
+        let [absorption, scattering] =
+            [absorption, scattering].map(|each| rgb(each).max(Rgb::ZERO));
         Self {
             sun,
             sun_below,
@@ -203,7 +204,8 @@ pub(crate) fn reflected(
     let dim = daylight(light, depth);
     let facing = normal.dot(sun);
     let through = finish.translucency * (-facing).max(0.0);
-    let even = sunlight * (FRAC_1_PI * (facing.max(0.0) * (1.0 - 0.5 * finish.translucency) + through));
+    let even =
+        sunlight * (FRAC_1_PI * (facing.max(0.0) * (1.0 - 0.5 * finish.translucency) + through));
     let around = ambient(light, normal, depth, dim);
     let towards = normal.dot(to_eye);
     let grazing = 1.0 - towards.clamp(0.0, 1.0);
@@ -254,7 +256,8 @@ pub(crate) fn arriving(
         } else {
             (distance, radiance)
         };
-        return seen * exp_rgb(light.extinction * -run) + water_glow(light, eye.daylight, direction, run);
+        return seen * exp_rgb(light.extinction * -run)
+            + water_glow(light, eye.daylight, direction, run);
     }
     if !crosses {
         return radiance;
@@ -285,6 +288,7 @@ fn fresnel(inside: f32, outside: f32) -> f32 {
 /// The underside of the surface: Snell's window (97 degrees wide) with sky and sun, the mirror of
 /// the deep around it. `above` is the radiance of what stands above the water there, used instead of
 /// the sky unless `open`.
+#[inline(always)]
 pub(crate) fn window(light: &Light, direction: Vec3, tilt: Vec3, above: Rgb, open: bool) -> Rgb {
     let inside = direction.dot(tilt).max(0.0);
     let mirrored = direction - tilt * (2.0 * inside);
@@ -306,6 +310,7 @@ pub(crate) fn window(light: &Light, direction: Vec3, tilt: Vec3, above: Rgb, ope
 }
 
 /// The surface from above: mirror of the sky over what shines through `run` metres of water.
+#[inline(always)]
 pub(crate) fn water_from_above(
     light: &Light,
     direction: Vec3,
@@ -317,7 +322,8 @@ pub(crate) fn water_from_above(
     let inside = (1.0 - (1.0 - outside * outside) / (REFRACTION * REFRACTION)).sqrt();
     let bent = direction / REFRACTION + tilt * (outside / REFRACTION - inside);
     let kept = radiance * exp_rgb(light.extinction * -run);
-    let body = if run.is_finite() { kept } else { Rgb::ZERO } + water_glow(light, Rgb::ONE, bent, run);
+    let body =
+        if run.is_finite() { kept } else { Rgb::ZERO } + water_glow(light, Rgb::ONE, bent, run);
     let mirrored = direction + tilt * (2.0 * outside);
     let up = Vec3::new(mirrored.x, mirrored.y.max(0.02), mirrored.z);
     let shine = sky(light, up) + sun_disc(light, mirrored, 0.0005);

@@ -60,7 +60,9 @@ fn moves(batch: &Batch, instance: usize, mesh: &Mesh) -> Option<Vec<Placement>> 
     let joints = poses.iter().zip(&skin.joints);
     Some(
         joints
-            .map(|(pose, joint)| Placement::new(&transform.compose(&pose.compose(&joint.rest.inverse()))))
+            .map(|(pose, joint)| {
+                Placement::new(&transform.compose(&pose.compose(&joint.rest.inverse())))
+            })
             .collect(),
     )
 }

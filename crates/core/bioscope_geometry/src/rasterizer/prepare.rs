@@ -85,20 +85,24 @@ impl Prepared {
         pictures: &BTreeMap<u64, Arc<Mipmap>>,
     ) -> Self {
         let light = Light::new(scene);
-        let waves = Waves::new(&light, scene.time, if options.smooth { 256 } else { 64 });
+        let waves = Waves::still();
         let shape = |key: u64| shapes[&key].clone();
-        let shapes: Vec<_> = scene.batches.iter().map(|batch| shape(batch.mesh.key.number())).collect();
+        let shapes: Vec<_> =
+            scene.batches.iter().map(|batch| shape(batch.mesh.key.number())).collect();
         let textures = scene.batches.iter().map(|batch| batch.material.texture.as_ref());
-        let pictures =
-            textures.map(|texture| texture.map(|texture| pictures[&texture.key.number()].clone())).collect();
+        let pictures = textures
+            .map(|texture| texture.map(|texture| pictures[&texture.key.number()].clone()))
+            .collect();
         let (things, levels) = things(scene, &shapes);
         let posed = std::iter::repeat_with(OnceLock::new).take(levels).collect();
         let (scene, options) = (scene.clone(), options.clone());
         let mut prepared =
             Self { scene, options, light, waves, shadow: None, shapes, pictures, things, posed };
-        if prepared.options.shadows {
-            prepared.shadow = Shadow::new(&prepared);
-        }
+        let fineness = if prepared.options.smooth { 256 } else { 64 };
+        (prepared.waves, prepared.shadow) = rayon::join(
+            || Waves::new(&prepared.light, prepared.scene.time, fineness),
+            || if prepared.options.shadows { Shadow::new(&prepared) } else { None },
+        );
         prepared
     }
 
@@ -121,9 +125,15 @@ impl Prepared {
     /// its place is not. `visible` judges an error and the nearest distance to it, both in metres in
     /// the world. Other things always have their turn.
     #[inline(always)]
-    pub(crate) fn has_turn(&self, thing: &Thing, eye: Vec3, visible: impl Fn(f32, f32) -> bool) -> bool {
+    pub(crate) fn has_turn(
+        &self,
+        thing: &Thing,
+        eye: Vec3,
+        visible: impl Fn(f32, f32) -> bool,
+    ) -> bool {
         let Some(reign) = &self.part(thing).tile else { return true };
-        let transform = &self.scene.batches[thing.batch as usize].transforms[thing.instance as usize];
+        let transform =
+            &self.scene.batches[thing.batch as usize].transforms[thing.instance as usize];
         let scale = transform.scale.abs();
         let eye = transform.inverse().point(eye);
         let shows = |flaw: &Flaw| visible(flaw.error * scale, flaw.distance(eye) * scale);

@@ -32,7 +32,8 @@ impl Corner3 {
     #[inline(always)]
     fn new(corners: [Vec3; 3], direction: Vec3) -> Self {
         let [a, b, c] = corners;
-        let volumes = [direction.dot(b.cross(c)), direction.dot(c.cross(a)), direction.dot(a.cross(b))];
+        let volumes =
+            [direction.dot(b.cross(c)), direction.dot(c.cross(a)), direction.dot(a.cross(b))];
         let whole = volumes[0] + volumes[1] + volumes[2];
         let inverse = if whole == 0.0 { 0.0 } else { 1.0 / whole };
         let first = (volumes[0] * inverse).clamp(0.0, 1.0);
@@ -47,7 +48,13 @@ impl Corner3 {
 
     /// Texture coordinates, and how many texels a pixel of this angular size takes in.
     #[inline(always)]
-    fn texel(&self, picture: &Mipmap, uvs: [[f32; 2]; 3], direction: Vec3, pitch: f32) -> ([f32; 2], f32) {
+    fn texel(
+        &self,
+        picture: &Mipmap,
+        uvs: [[f32; 2]; 3],
+        direction: Vec3,
+        pitch: f32,
+    ) -> ([f32; 2], f32) {
         let [a, b, c] = uvs;
         let mix = |axis: usize| {
             a[axis] * self.shares[0] + b[axis] * self.shares[1] + c[axis] * self.shares[2]
@@ -68,7 +75,15 @@ fn at<T: Copy>(values: &[T], triangle: [u32; 3]) -> [T; 3] {
 
 impl<'a> Shader<'a> {
     /// What arrives at the eye from a point of a triangle, at `distance` along a unit direction.
-    pub fn surface(&self, thing: &Thing, level: usize, triangle: usize, direction: Vec3, distance: f32) -> Rgb {
+    #[inline(always)]
+    pub fn surface(
+        &self,
+        thing: &Thing,
+        level: usize,
+        triangle: usize,
+        direction: Vec3,
+        distance: f32,
+    ) -> Rgb {
         let prepared = self.prepared;
         let posed = prepared.posed(thing, level);
         let mesh: &Mesh = &prepared.part(thing).levels[level].1;
@@ -85,7 +100,8 @@ impl<'a> Shader<'a> {
             albedo *= rgb(seen.mix(at(&mesh.colors, triangle).map(Vec3::from)).to_array());
         }
         if let Some(picture) = self.picture(thing, mesh) {
-            let (uv, footprint) = seen.texel(picture, at(&mesh.uvs, triangle), direction, self.pitch);
+            let (uv, footprint) =
+                seen.texel(picture, at(&mesh.uvs, triangle), direction, self.pitch);
             let [red, green, blue, _] = picture.read(uv, footprint, prepared.options.smooth);
             albedo *= rgb([red, green, blue]);
         }
@@ -107,7 +123,8 @@ impl<'a> Shader<'a> {
         let sun = if depth > 0.0 { light.sun_below } else { light.sun };
         let facing = normal.dot(sun);
         let lit = facing > 0.0 || finish.translucency > 0.0;
-        let sunlight = if lit { self.sunlight(point, normal * facing.signum(), depth) } else { Rgb::ZERO };
+        let sunlight =
+            if lit { self.sunlight(point, normal * facing.signum(), depth) } else { Rgb::ZERO };
         let radiance = reflected(light, finish, sunlight, depth, normal, -direction);
         self.arriving(direction, distance, radiance)
     }
@@ -136,15 +153,27 @@ impl<'a> Shader<'a> {
     }
 
     /// What arrives from where there is nothing.
+    #[inline(always)]
     pub fn background(&self, direction: Vec3) -> Rgb {
         let light: &Light = &self.prepared.light;
-        let radiance = if self.eye.depth > 0.0 { Rgb::ZERO } else { sky(light, direction) + sun_disc(light, direction, 0.0) };
+        let radiance = if self.eye.depth > 0.0 {
+            Rgb::ZERO
+        } else {
+            sky(light, direction) + sun_disc(light, direction, 0.0)
+        };
         self.arriving(direction, f32::INFINITY, radiance)
     }
 
     /// Whether a thing's texture is opaque where a ray meets its triangle. `corners` are relative to
     /// the eye, in the same axes as the ray.
-    pub fn solid(&self, thing: &Thing, mesh: &Mesh, triangle: [u32; 3], corners: [Vec3; 3], ray: Vec3) -> bool {
+    pub fn solid(
+        &self,
+        thing: &Thing,
+        mesh: &Mesh,
+        triangle: [u32; 3],
+        corners: [Vec3; 3],
+        ray: Vec3,
+    ) -> bool {
         let Some(picture) = self.picture(thing, mesh) else { return true };
         let seen = Corner3::new(corners, ray);
         let (uv, footprint) = seen.texel(picture, at(&mesh.uvs, triangle), ray, self.pitch);

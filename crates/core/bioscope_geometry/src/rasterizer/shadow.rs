@@ -9,10 +9,10 @@ use super::lens::Window;
 use super::prepare::{Prepared, Thing};
 
 /// Texels per side.
-const SIZE: usize = 2048;
+const SIZE: usize = 1536;
 
 /// Rows worked on at a time.
-const BAND: usize = 256;
+const BAND: usize = 128;
 
 /// Things larger than this (the ground) do not decide what the map covers, metres.
 const LARGE: f32 = 8.0;
@@ -86,11 +86,15 @@ impl Shadow {
     /// The shadows of a scene; none if it is empty.
     pub fn new(prepared: &Prepared) -> Option<Self> {
         let frame = Frame::new(prepared)?;
-        let bands: Vec<_> = (0..SIZE).step_by(BAND).collect();
-        let heights = bands
-            .into_par_iter()
-            .flat_map_iter(|first| band(prepared, &frame, [first, first + BAND]))
-            .collect();
+        let mut heights = vec![0.0; SIZE * SIZE];
+        heights.par_chunks_mut(BAND * SIZE).enumerate().for_each_init(
+            Sheet::default,
+            |sheet, (number, part)| {
+                let rows = [number * BAND, (number + 1) * BAND];
+                band(prepared, &frame, rows, sheet);
+                part.copy_from_slice(sheet.nearness());
+            },
+        );
         Some(Self { frame, heights })
     }
 
@@ -124,8 +128,7 @@ impl Shadow {
 }
 
 /// Heights of the rows of one band.
-fn band(prepared: &Prepared, frame: &Frame, rows: [usize; 2]) -> Vec<f32> {
-    let mut sheet = Sheet::default();
+fn band(prepared: &Prepared, frame: &Frame, rows: [usize; 2], sheet: &mut Sheet) {
     sheet.clear(SIZE, rows, f32::NEG_INFINITY);
     let mut places = Vec::new();
     for thing in &prepared.things {
@@ -144,12 +147,13 @@ fn band(prepared: &Prepared, frame: &Frame, rows: [usize; 2]) -> Vec<f32> {
         let level = part.level(reach * prepared.options.detail);
         places.clear();
         let half = Vec3::new(0.5, 0.5, 0.0);
-        places.extend(prepared.posed(thing, level).points.iter().map(|&point| frame.place(point) - half));
+        places.extend(
+            prepared.posed(thing, level).points.iter().map(|&point| frame.place(point) - half),
+        );
         for triangle in &part.levels[level].1.triangles {
-            cover(&mut sheet, triangle.map(|corner| places[corner as usize]), rows);
+            cover(sheet, triangle.map(|corner| places[corner as usize]), rows);
         }
     }
-    sheet.nearness().to_vec()
 }
 
 /// Raises the heights under a triangle given in texel coordinates.
@@ -157,7 +161,9 @@ fn band(prepared: &Prepared, frame: &Frame, rows: [usize; 2]) -> Vec<f32> {
 fn cover(sheet: &mut Sheet, [a, b, c]: [Vec3; 3], rows: [usize; 2]) {
     let low = a.min(b).min(c);
     let high = a.max(b).max(c);
-    let bound = |value: f32, low: usize, high: usize| (value.max(0.0) as u32).clamp(low as u32, high as u32);
+    let bound = |value: f32, low: usize, high: usize| {
+        (value.max(0.0) as u32).clamp(low as u32, high as u32)
+    };
     let window = Window {
         columns: [bound(low.x, 0, SIZE), bound(high.x + 1.0, 0, SIZE)],
         rows: [bound(low.y, rows[0], rows[1]), bound(high.y + 1.0, rows[0], rows[1])],

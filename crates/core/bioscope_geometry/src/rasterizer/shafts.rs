@@ -36,10 +36,11 @@ pub(crate) fn add_shafts(view: &mut View, shader: &Shader, lens: &Lens, samples:
                 return Rgb::ZERO;
             };
             let distance = depth[pixel[1] * view.width + pixel[0]];
-            let start = ((column * 5 + row * 3) % 8) as f32 / 8.0;
+            let start = ((column % 4) * 4 + (row + column) % 4) as f32 / 16.0;
             march(shader, shader.stand.outward(ray), distance, start)
         })
         .collect();
+    let cells = smoothed(&smoothed(&cells, bounds, 1), bounds, bounds[0]);
     let width = view.width;
     view.color.par_chunks_mut(width).enumerate().for_each(|(row, line)| {
         for (column, color) in line.iter_mut().enumerate() {
@@ -57,19 +58,35 @@ fn march(shader: &Shader, direction: Vec3, distance: f32, start: f32) -> Rgb {
     let surface = light.depth(eye.y) / direction.y.max(1e-6);
     let length = distance.min(REACH).min(surface);
     let towards = direction.dot(light.sun_below).max(0.0);
-    let strength = light.shafts * (0.018 + 0.06 * towards * towards * towards);
+    let strength = light.shafts * (0.012 + 0.05 * towards * towards * towards);
     let step = length / STEPS as f32;
     let mut sum = Rgb::ZERO;
     for number in 0..STEPS {
         let run = (number as f32 + start) * step;
         let point = eye + direction * run;
         let depth = light.depth(point.y).max(0.0);
-        let pattern = waves.pattern(light, point, depth, 4);
+        let pattern = waves.pattern(light, point, depth, 8);
         let lit = shadow.as_ref().map_or(1.0, |shadow| shadow.lit(point, Vec3::ZERO));
         let path = run + depth / light.sun_below.y;
-        sum += exp_rgb(light.extinction * -path) * (pattern * lit - 1.0);
+        let change = pattern * lit - 1.0;
+        // Light that went several ways fills the dark beams.
+        let softened = if change < 0.0 { 0.35 * change } else { 1.3 * change };
+        sum += exp_rgb(light.extinction * -path) * softened;
     }
     light.sun_color * sum * (strength * step)
+}
+
+/// Means of four neighboring cells along one axis, over which the marches' starts are spread evenly; `step`
+/// is the distance of neighbors along it.
+fn smoothed(cells: &[Rgb], bounds: [usize; 2], step: usize) -> Vec<Rgb> {
+    let count = if step == 1 { bounds[0] } else { bounds[1] };
+    let mean = |index: usize| {
+        let along = index / step % count;
+        let line = index - along * step;
+        let near = (0..4).map(|offset| (along + offset).saturating_sub(1).min(count - 1));
+        near.map(|place| cells[line + place * step]).sum::<Rgb>() * 0.25
+    };
+    (0..cells.len()).map(mean).collect()
 }
 
 /// Value between the four cells round a pixel.

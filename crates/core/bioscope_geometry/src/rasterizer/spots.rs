@@ -34,13 +34,19 @@ pub(crate) struct Spot {
 }
 
 /// The discs that an eye sees, farthest first. `samples` is the number of the lens's samples per pixel.
-pub(crate) fn spots(prepared: &Prepared, shader: &Shader, lens: &Lens, samples: usize) -> Vec<Spot> {
+pub(crate) fn spots(
+    prepared: &Prepared,
+    shader: &Shader,
+    lens: &Lens,
+    samples: usize,
+) -> Vec<Spot> {
     let per_pixel = 1.0 / samples as f32;
     let farthest = prepared.light.visibility().min(lens.far);
     let mut spots = Vec::new();
     for points in &prepared.scene.points {
         let faintest = FAINTEST / points.opacity.clamp(0.0, 1.0).max(1e-9);
-        for ((&center, &radius), &id) in points.positions.iter().zip(&points.radii).zip(&points.ids) {
+        for ((&center, &radius), &id) in points.positions.iter().zip(&points.radii).zip(&points.ids)
+        {
             let distance = (center - shader.stand.eye).length();
             let size = radius * lens.scale * per_pixel / distance;
             let share = (size / LEAST).min(1.0);
@@ -87,7 +93,8 @@ impl Spot {
     pub fn draw(&self, strip: &mut Strip) {
         let (rows, width) = (strip.rows, strip.width);
         let reach = self.radius + 0.5;
-        let bound = |value: f32, low: usize, high: usize| (value.max(0.0) as usize).clamp(low, high);
+        let bound =
+            |value: f32, low: usize, high: usize| (value.max(0.0) as usize).clamp(low, high);
         let top = bound(self.y - reach, rows[0], rows[1]);
         let bottom = bound(self.y + reach + 1.0, rows[0], rows[1]);
         let left = bound(self.x - reach, 0, width);

@@ -74,7 +74,11 @@ impl Mipmap {
         let u = (uv[0] - whole(uv[0])) * level.width as f32;
         let v = (uv[1] - whole(uv[1])) * level.height as f32;
         if smooth {
-            return self.bilinear(level, u + level.width as f32 - 0.5, v + level.height as f32 - 0.5);
+            return self.bilinear(
+                level,
+                u + level.width as f32 - 0.5,
+                v + level.height as f32 - 0.5,
+            );
         }
         let (column, row) = ((u as usize).min(level.width - 1), (v as usize).min(level.height - 1));
         self.decode(level.pixels[row * level.width + column])
@@ -85,7 +89,8 @@ impl Mipmap {
         let (column, row) = (x as usize, y as usize);
         let (u, v) = (x - column as f32, y - row as f32);
         let (left, right) = (column % level.width, (column + 1) % level.width);
-        let (top, bottom) = (row % level.height * level.width, (row + 1) % level.height * level.width);
+        let (top, bottom) =
+            (row % level.height * level.width, (row + 1) % level.height * level.width);
         let corners = [top + left, top + right, bottom + left, bottom + right];
         let shares = [(1.0 - u) * (1.0 - v), u * (1.0 - v), (1.0 - u) * v, u * v];
         let mut sum = [0.0; 4];
@@ -157,7 +162,8 @@ mod tests {
 
     #[test]
     fn levels_keep_the_mean_and_repeat() {
-        let checks = (0..64).map(|index| if (index + index / 8) % 2 == 0 { [255; 4] } else { [0, 0, 0, 255] });
+        let checks = (0..64)
+            .map(|index| if (index + index / 8) % 2 == 0 { [255; 4] } else { [0, 0, 0, 255] });
         let picture = Mipmap::new(&Texture::new(8, 8, checks.collect()));
         assert_eq!(picture.levels.len(), 4);
         let [gray, ..] = picture.read([0.3, 0.7], 100.0, true);

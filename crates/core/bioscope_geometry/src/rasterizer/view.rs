@@ -48,7 +48,8 @@ impl View {
     pub(crate) fn strips(&mut self, rows: usize) -> Vec<Strip<'_>> {
         let Self { width, height, color, depth, identity } = self;
         let count = (rows * *width).max(1);
-        let parts = color.chunks_mut(count).zip(depth.chunks_mut(count)).zip(identity.chunks_mut(count));
+        let parts =
+            color.chunks_mut(count).zip(depth.chunks_mut(count)).zip(identity.chunks_mut(count));
         parts
             .enumerate()
             .map(|(number, ((color, depth), identity))| {

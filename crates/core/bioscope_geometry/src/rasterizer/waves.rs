@@ -30,7 +30,10 @@ const WAVES: [[f32; 4]; 9] = [
 const CELLS: f32 = 5.0;
 
 /// How far sunlight is thrown, in tiles per unit of slope.
-const FOCUS: f32 = 0.16;
+const FOCUS: f32 = 0.13;
+
+/// Beyond this distance the surface looks flat, metres.
+const FLAT: f32 = 150.0;
 
 /// Slopes and caustics of one moment.
 #[derive(Debug)]
@@ -45,12 +48,17 @@ pub(crate) struct Waves {
 }
 
 impl Waves {
+    /// No waves.
+    pub fn still() -> Self {
+        Self { frequency: 1.0, size: 1, slopes: vec![[0.0; 2]], levels: vec![vec![1.0]] }
+    }
+
     /// The waves at a time in seconds; `size` is a power of two. Without water all is still.
     pub fn new(light: &Light, time: f64, size: usize) -> Self {
-        let frequency = 1.0 / (CELLS * light.caustic_scale);
         if !light.has_water() {
-            return Self { frequency, size: 1, slopes: vec![[0.0; 2]], levels: vec![vec![1.0]] };
+            return Self::still();
         }
+        let frequency = 1.0 / (CELLS * light.caustic_scale);
         let slopes = slopes(time, size);
         let mut levels = vec![gathered(&slopes, size)];
         while levels[levels.len() - 1].len() > 16 {
@@ -64,11 +72,18 @@ impl Waves {
     /// distance, where the eye sees the mean of many ripples.
     #[inline(always)]
     pub fn slope(&self, point: Vec3, distance: f32) -> Vec3 {
-        let calm = 1.0 / (1.0 + distance * 0.06);
+        if distance > FLAT {
+            return Vec3::Y;
+        }
+        let calm = 0.5 / (1.0 + distance * 0.06) * (1.0 - distance / FLAT);
         let place = Place::new(point.x * self.frequency, point.z * self.frequency, self.size);
         let [x, z] = place.mix(|index| self.slopes[index].into()).to_array();
         // A second, wider set of waves hides the repetition.
-        let place = Place::new(point.z * self.frequency * 0.31, -point.x * self.frequency * 0.31, self.size);
+        let place = Place::new(
+            point.z * self.frequency * 0.31,
+            -point.x * self.frequency * 0.31,
+            self.size,
+        );
         let [wide_x, wide_z] = place.mix(|index| self.slopes[index].into()).to_array();
         unit(Vec3::new(-(x + wide_x) * calm, 1.0, -(z + wide_z) * calm))
     }
@@ -112,7 +127,11 @@ impl Place {
         let (left, top) = (column & mask, (row & mask) * size);
         let (right, bottom) = ((column + 1) & mask, ((row + 1) & mask) * size);
         let corners = [top + left, top + right, bottom + left, bottom + right];
-        Self { corners, u: x - column as f32, v: z - row as f32 }
+        Self {
+            corners,
+            u: (x - column as f32).clamp(0.0, 1.0),
+            v: (z - row as f32).clamp(0.0, 1.0),
+        }
     }
 
     #[inline(always)]
@@ -153,7 +172,7 @@ fn slopes(time: f64, size: usize) -> Vec<[f32; 2]> {
 /// Sunlight thrown by the slopes, gathered on the same grid; mean 1.
 fn gathered(slopes: &[[f32; 2]], size: usize) -> Vec<f32> {
     let mut light = vec![0.0; size * size];
-    let throw = FOCUS * size as f32 / CELLS;
+    let throw = FOCUS * size as f32;
     for row in 0..size {
         for column in 0..size {
             let [x, z] = slopes[row * size + column];
@@ -212,7 +231,9 @@ mod tests {
         assert!(brightest > 2.0, "{brightest}");
         let points = (0..50).map(|index| Vec3::new(index as f32 * 0.1, -3.0, 0.3));
         let change: f32 = points
-            .map(|point| (now.caustic(&light, point, 3.0) - later.caustic(&light, point, 3.0)).abs())
+            .map(|point| {
+                (now.caustic(&light, point, 3.0) - later.caustic(&light, point, 3.0)).abs()
+            })
             .sum();
         assert!(change > 1.0, "{change}");
     }
