@@ -12,6 +12,7 @@ from bioscope._engine import Batch, Camera, Material, Mesh, Points, Publication,
 from bioscope._engine import View as WorldView
 from bioscope.errors import BioscopeError
 from bioscope.lsystem import Interpretation, LSystem, ModuleString, Turtle
+from bioscope.minds import Mind
 from bioscope.populations import (
     Bubbles,
     Corals,
@@ -20,6 +21,7 @@ from bioscope.populations import (
     Ground,
     Habitat,
     Plankton,
+    Plants,
     Props,
     Rectangle,
     RoamingFish,
@@ -55,12 +57,14 @@ __all__ = [
     "Habitat",
     "Material",
     "Mesh",
+    "Mind",
     "LSystem",
     "ModuleString",
     "Interpretation",
     "Turtle",
     "Parameter",
     "Plankton",
+    "Plants",
     "Points",
     "Population",
     "Props",

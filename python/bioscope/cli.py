@@ -98,10 +98,12 @@ def list_() -> None:
 
     Example: bioscope list
     """
+    from bioscope.populations.plants import models
+
     for name, summary in worlds.names().items():
         print(f"{name:16} {summary}")
-    for path in sorted(Path(worlds.__file__).parent.glob("*/plants/*.l")):
-        print(f"{path.stem:16} Plant model: {path}")
+    for name, path in models().items():
+        print(f"{name:16} Plant model, {path}")
 
 
 @app.command()

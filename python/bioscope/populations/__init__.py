@@ -3,6 +3,7 @@
 from bioscope.populations.drifters import Bubbles, Plankton
 from bioscope.populations.fish import FishSchool, RoamingFish
 from bioscope.populations.place import Disk, Habitat, Rectangle
+from bioscope.populations.plants import Plants
 from bioscope.populations.scenery import Corals, Ground, Props, Rocks
 
 __all__ = [
@@ -13,6 +14,7 @@ __all__ = [
     "Ground",
     "Habitat",
     "Plankton",
+    "Plants",
     "Props",
     "Rectangle",
     "RoamingFish",

@@ -3,8 +3,16 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from bioscope.populations.native import Asked
+from bioscope import _engine, minds
+from bioscope.populations.native import Asked, asked_text
+from bioscope.world.population import Native
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from bioscope.minds import Mind
 
 Vector = tuple[float, float, float]
 
@@ -75,6 +83,8 @@ class RoamingFish(Asked):
         Ball in which they begin, metres.
     home
         Middle of their home range, metres; `center` if not given.
+    mind
+        Called once per fish for a mind of your own (a `Mind` class will do); a roamer's if not given.
     **parameters
         Any of the population's parameters; see `World.parameters`.
     """
@@ -87,6 +97,7 @@ class RoamingFish(Asked):
         center: Vector = (0.0, -3.0, 0.0),
         radius: float = 1.0,
         home: Vector | None = None,
+        mind: Callable[[], Mind] | None = None,
         **parameters: float,
     ) -> None:
         options = {
@@ -96,4 +107,8 @@ class RoamingFish(Asked):
             "radius": radius,
             "home": home,
         }
-        super().__init__("roaming_fish", options, parameters)
+        if mind is None:
+            super().__init__("roaming_fish", options, parameters)
+        else:
+            text = asked_text(options)
+            Native.__init__(self, _engine.fish_with_minds(text, mind, minds.kinds()))

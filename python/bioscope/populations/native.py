@@ -20,6 +20,11 @@ class Asked(Native):
         parameters: dict[str, float],
         **always: Any,
     ) -> None:
-        said = {name: value for name, value in options.items() if value is not None} | always
-        text = msgspec.json.encode(said).decode()
+        text = asked_text(options, **always)
         super().__init__(_engine.resident(kind, text, parameters))
+
+
+def asked_text(options: dict[str, Any], **always: Any) -> str:
+    """Return options as the engine reads them; those that are none are left to the engine."""
+    said = {name: value for name, value in options.items() if value is not None} | always
+    return msgspec.json.encode(said).decode()

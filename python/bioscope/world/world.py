@@ -6,7 +6,7 @@ import secrets
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from bioscope import _engine
+from bioscope import _engine, minds
 from bioscope.files import naming, written_whole
 from bioscope.world import field as fields
 from bioscope.world import population as populations
@@ -204,7 +204,7 @@ class World:
         """
         data = Path(path).read_bytes()
         with naming(path):
-            return cls._of(_engine.World.restore(data, populations.kinds(), fields.kinds()))
+            return cls._of(_engine.World.restore(data, populations.kinds(), fields.kinds(), minds.kinds()))
 
     def export(
         self, path: str | PathLike[str], seconds: float, fps: float = 24.0, **options: Any
@@ -240,7 +240,7 @@ class World:
         """Repeat a recorded run to its end; ends in the same state, to the bit."""
         data = Path(path).read_bytes()
         with naming(path):
-            return cls._of(_engine.World.replay(data, populations.kinds(), fields.kinds()))
+            return cls._of(_engine.World.replay(data, populations.kinds(), fields.kinds(), minds.kinds()))
 
 
 __all__ = ["Resident", "World"]

@@ -28,7 +28,7 @@ pub trait Mind: Send + Sync {
     }
 
     /// Complete state, parameters included, as bytes.
-    fn save(&self) -> Vec<u8>;
+    fn save(&self) -> Result<Vec<u8>>;
 }
 
 /// Carries annotations from the own frame of `subject` into the world: its place in metres and

@@ -4,18 +4,22 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use bioscope_core::{Error, Result, Vec3};
+use bioscope_minds::Mind;
 use bioscope_world::Population;
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 
-use crate::animals::{Animals, AnimalsOptions, Kinds, Place};
+use crate::animals::{Animal, Animals, AnimalsOptions, Kinds, Place};
 use crate::drifters::{Bubbles, Plankton};
 use crate::fish::{self, FishSchool, FishSchoolOptions, FishSpecies};
+use crate::plants::Plants;
 use crate::scenery::{Corals, Ground, Props, Rocks};
 
 /// The kinds that [`population`] makes.
-pub const KINDS: [&str; 8] =
-    ["bubbles", "corals", "fish_school", "ground", "plankton", "props", "roaming_fish", "rocks"];
+pub const KINDS: [&str; 9] = [
+    "bubbles", "corals", "fish_school", "ground", "plankton", "plants", "props",
+    "roaming_fish", "rocks",
+];
 
 /// A population of this kind with these options (a JSON object with the field names of its options
 /// struct) and parameters.
@@ -30,8 +34,9 @@ pub fn population(
         "fish_school" => Box::new(FishSchool::new(school(&read(kind, options)?)?)?),
         "ground" => Box::new(Ground::new(read(kind, options)?)?),
         "plankton" => Box::new(Plankton::new(read(kind, options)?)?),
+        "plants" => Box::new(Plants::new(read(kind, options)?)?),
         "props" => Box::new(Props::new(read(kind, options)?)?),
-        "roaming_fish" => Box::new(roaming(&read(kind, options)?)?),
+        "roaming_fish" => Box::new(fish_with_minds(options, &|| None, Arc::default())?),
         "rocks" => Box::new(Rocks::new(read(kind, options)?)?),
         _ => {
             let known = KINDS.map(str::to_owned).to_vec();
@@ -97,13 +102,23 @@ struct Roaming {
     home: Option<Vec3>,
 }
 
-fn roaming(asked: &Roaming) -> Result<Animals> {
+/// Single fishes as `options` (a JSON object) asks for them, each with the mind that `mind` makes; `kinds`
+/// must know those minds.
+pub fn fish_with_minds(
+    options: &str,
+    mind: &dyn Fn() -> Option<Box<dyn Mind>>,
+    kinds: Arc<Kinds>,
+) -> Result<Animals> {
+    let asked: Roaming = read("fish", options)?;
     let species = asked.species.get()?;
     let look = fish::look(&species);
-    let animals = (0..asked.count)
-        .map(|_| fish::roaming(&species, &look, None))
-        .collect::<Result<Vec<_>>>()?;
+    let animals = (0..asked.count).map(|_| {
+        let mind = mind();
+        let foreign = mind.is_some();
+        let animal = fish::roaming(&species, &look, mind)?;
+        Ok(Animal { may_fail: foreign, ..animal })
+    });
     let place = Some(Place { center: asked.center, radius: asked.radius });
-    let options = AnimalsOptions { place, home: asked.home, ..AnimalsOptions::default() };
-    Animals::new(animals, options, Arc::new(Kinds::default()))
+    let settings = AnimalsOptions { place, home: asked.home, ..AnimalsOptions::default() };
+    Animals::new(animals.collect::<Result<Vec<_>>>()?, settings, kinds)
 }

@@ -12,6 +12,7 @@ mod lsystem;
 mod material;
 mod mesh;
 mod png;
+mod mind;
 mod population;
 mod publication;
 mod rasterizer;
@@ -43,6 +44,8 @@ mod _engine {
     use super::mesh::Mesh;
     #[pymodule_export]
     use super::png::encode_png;
+    #[pymodule_export]
+    use super::mind::fish_with_minds;
     #[pymodule_export]
     use super::population::{Resident, resident};
     #[pymodule_export]

@@ -28,10 +28,14 @@ pub fn resident(
 ) -> PyResult<Resident> {
     let build = || bioscope_populations::catalog::population(kind, options, &parameters);
     let population = py.detach(build).map_err(crate::error::to_python)?;
-    Ok(Resident { population: Mutex::new(Some(population)) })
+    Ok(Resident::new(population))
 }
 
 impl Resident {
+    pub fn new(population: Box<dyn Population>) -> Self {
+        Self { population: Mutex::new(Some(population)) }
+    }
+
     /// Takes the population out; it can live in one world only.
     pub fn take(&self) -> Result<Box<dyn Population>> {
         let mut population = self.population.lock().unwrap_or_else(PoisonError::into_inner);

@@ -56,8 +56,9 @@ impl World {
 }
 
 /// Everything that saved worlds may hold, user's classes among them.
-fn registry(kinds: Vec<String>, fields: Vec<String>) -> Registry {
+fn registry(kinds: Vec<String>, fields: Vec<String>, minds: Vec<String>) -> Registry {
     let mut registry = bioscope_populations::registry();
+    bioscope_populations::add_animals(&mut registry, crate::mind::parts(minds));
     for kind in kinds {
         let name = kind.clone();
         registry.add_population(&kind, move |bytes| {
@@ -84,8 +85,9 @@ impl World {
         data: &[u8],
         populations: Vec<String>,
         fields: Vec<String>,
+        minds: Vec<String>,
     ) -> PyResult<Self> {
-        let registry = registry(populations, fields);
+        let registry = registry(populations, fields, minds);
         let world = py.detach(|| bioscope_world::World::restore(data, &registry));
         world.map(Self::new_of).map_err(to_python)
     }
@@ -349,8 +351,9 @@ impl World {
         data: &[u8],
         populations: Vec<String>,
         fields: Vec<String>,
+        minds: Vec<String>,
     ) -> PyResult<Self> {
-        let registry = registry(populations, fields);
+        let registry = registry(populations, fields, minds);
         let world = py.detach(|| {
             let recording = bioscope_core::state::from_bytes("recording", data)?;
             bioscope_world::World::replay(&recording, &registry, |_| {})

@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from bioscope.export.balls import Balls
+from bioscope.geometry.balls import Balls
 from bioscope.export.gltf.animation import continuous, placement
-from bioscope.export.gltf.meshes import same_build
+from bioscope.export.gltf.meshes import brightest, same_build
 from bioscope.geometry.skinning import rest_pose
 from bioscope.geometry.transforms import composed, inverse, matrices
 
@@ -61,9 +61,11 @@ class Batches:
         motion = recording.motion(presence)
         forms, weights = self._forms(recording)
         batch = recording.first
+        factor = brightest(forms[0])
+        tints = [(red * factor, green * factor, blue * factor) for red, green, blue in recording.palette.colors]
         meshes = [
-            self._meshes.of(batch.name, forms, self._materials.of(batch.material, color))
-            for color in recording.palette.colors
+            self._meshes.of(batch.name, forms, self._materials.of(batch.material, tint))
+            for tint in tints
         ]
         still = presence.all() and np.array_equal(motion, motion[:, :1].repeat(motion.shape[1], 1))
         crowded = len(presence) > _MOST_NODES

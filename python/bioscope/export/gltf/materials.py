@@ -5,14 +5,14 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from bioscope import _engine
-from bioscope.export.palette import WHITE
+from bioscope.geometry.palette import WHITE
 from bioscope.export.pictures import opaque, refraction
 
 if TYPE_CHECKING:
     from bioscope._engine import Material
-    from bioscope.export.balls import Grain
+    from bioscope.geometry.balls import Grain
     from bioscope.export.gltf.container import Container
-    from bioscope.export.palette import Color
+    from bioscope.geometry.palette import Color
 
 _USUAL_SPECULAR = 0.04
 """Reflectance at normal incidence that glTF assumes if nothing is said."""

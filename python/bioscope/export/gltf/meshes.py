@@ -45,7 +45,7 @@ class Meshes:
             if len(mesh.uvs):
                 attributes["TEXCOORD_0"] = file.vertices(mesh.uvs)
             if len(mesh.colors):
-                attributes["COLOR_0"] = file.vertices(np.clip(mesh.colors, 0.0, 1.0))
+                attributes["COLOR_0"] = file.vertices((mesh.colors / brightest(mesh)).astype(np.float32))
             if mesh.joints:
                 indices, weights = bindings(mesh)
                 attributes["JOINTS_0"] = file.vertices(indices)
@@ -59,6 +59,11 @@ class Meshes:
         moved = form.positions - base.positions
         turned = units(form.normals) - units(base.normals)
         return {"POSITION": file.vertices(moved, bounds=True), "NORMAL": file.vertices(turned)}
+
+
+def brightest(mesh: Mesh) -> float:
+    """Return the factor by which vertex colors are divided, as glTF's reach 1 only."""
+    return max(1.0, float(mesh.colors.max())) if len(mesh.colors) else 1.0
 
 
 def same_build(forms: list[Mesh]) -> bool:

@@ -8,7 +8,7 @@ import numpy as np
 
 from bioscope.errors import LimitError
 from bioscope.export.individuals import Slots, keys
-from bioscope.export.palette import Palette
+from bioscope.geometry.palette import Palette
 from bioscope.geometry.skinning import parents, rest_pose
 from bioscope.geometry.transforms import relative_to_parents
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from bioscope._engine import Batch, Mesh
-    from bioscope.export.balls import Balls
+    from bioscope.geometry.balls import Balls
 
 _MOST_BYTES = 2**30
 """Motion of one batch kept in memory."""

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from bioscope.export.balls import Balls
+from bioscope.geometry.balls import Balls
 from bioscope.export.gltf.animation import Animation, placement
 from bioscope.export.gltf.batches import Batches
 from bioscope.export.gltf.container import Container

@@ -14,7 +14,7 @@ from pxr import UsdGeom, UsdSkel, Vt
 
 from bioscope.export.individuals import keys
 from bioscope.export.names import Names
-from bioscope.export.palette import Palette
+from bioscope.geometry.palette import Palette
 from bioscope.export.usd.crowd import bind, describe
 from bioscope.export.usd.samples import usd_value
 from bioscope.export.usd.shape import Shape
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from bioscope._engine import Batch, Mesh
-    from bioscope.export.balls import Balls
+    from bioscope.geometry.balls import Balls
     from bioscope.export.usd.looks import Looks
     from bioscope.export.usd.samples import Channel, Samples
 

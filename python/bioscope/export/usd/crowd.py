@@ -12,14 +12,14 @@ import numpy as np
 from pxr import UsdGeom, UsdShade
 
 from bioscope.export.individuals import Slots, keys, placed
-from bioscope.export.palette import Palette
+from bioscope.geometry.palette import Palette
 from bioscope.export.usd.shape import Shape
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from bioscope._engine import Batch
-    from bioscope.export.balls import Balls
+    from bioscope.geometry.balls import Balls
     from bioscope.export.usd.looks import Looks
     from bioscope.export.usd.samples import Samples
 

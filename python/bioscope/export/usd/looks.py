@@ -12,15 +12,15 @@ from pxr import Gf, Sdf, UsdShade
 
 from bioscope import _engine
 from bioscope.export.names import Names
-from bioscope.export.palette import WHITE
+from bioscope.geometry.palette import WHITE
 from bioscope.export.pictures import opaque, refraction
 
 if TYPE_CHECKING:
     from pathlib import Path
 
     from bioscope._engine import Material
-    from bioscope.export.balls import Grain
-    from bioscope.export.palette import Color
+    from bioscope.geometry.balls import Grain
+    from bioscope.geometry.palette import Color
 
 
 class Looks:

@@ -9,8 +9,8 @@ from pxr import Sdf, UsdGeom
 
 if TYPE_CHECKING:
     from bioscope._engine import Material, Mesh
-    from bioscope.export.balls import Grain
-    from bioscope.export.palette import Color
+    from bioscope.geometry.balls import Grain
+    from bioscope.geometry.palette import Color
     from bioscope.export.usd.samples import Samples
 
 

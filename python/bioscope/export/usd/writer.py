@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from bioscope.errors import MissingExtraError
-from bioscope.export.balls import Balls
+from bioscope.geometry.balls import Balls
 from bioscope.export.folder import written_folder
 from bioscope.export.names import Names
 from bioscope.files import written_whole

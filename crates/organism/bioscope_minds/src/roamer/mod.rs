@@ -75,7 +75,7 @@ impl Mind for Roamer {
         Some(&mut self.parameters)
     }
 
-    fn save(&self) -> Vec<u8> {
-        state::to_bytes(self)
+    fn save(&self) -> Result<Vec<u8>> {
+        Ok(state::to_bytes(self))
     }
 }

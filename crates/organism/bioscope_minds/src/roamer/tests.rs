@@ -110,7 +110,7 @@ fn a_restored_mind_goes_on_identically() {
     let mut fish = Fish::new();
     (0..900).for_each(|_| fish.step());
     let mut other = Fish {
-        mind: Roamer::restore(&fish.mind.save()).unwrap(),
+        mind: Roamer::restore(&fish.mind.save().unwrap()).unwrap(),
         intention: fish.intention.clone(),
         ..fish
     };
@@ -119,18 +119,18 @@ fn a_restored_mind_goes_on_identically() {
         other.step();
         assert_eq!(fish.intention, other.intention);
     }
-    assert_eq!(fish.mind.save(), other.mind.save());
+    assert_eq!(fish.mind.save().unwrap(), other.mind.save().unwrap());
 }
 
 #[test]
 fn damaged_states_and_bad_parameters_are_refused() {
-    let bytes = Roamer::default().save();
+    let bytes = Roamer::default().save().unwrap();
     assert!(Roamer::restore(&bytes[..bytes.len() - 1]).is_err());
     let mut roamer = Roamer::default();
     let parameters = roamer.parameters_mut().unwrap();
     assert!(parameters.set("cruise_speed", -1.0).is_err());
     roamer.parameters.cruise_speed = f32::NAN;
-    assert!(Roamer::restore(&roamer.save()).is_err());
+    assert!(Roamer::restore(&roamer.save().unwrap()).is_err());
 }
 
 #[test]

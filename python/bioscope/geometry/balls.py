@@ -1,4 +1,4 @@
-"""Points seen as instances of a ball, so that writers know one kind of thing."""
+"""Points seen as instances of a ball, so that writers and renderers know one kind of thing."""
 
 from __future__ import annotations
 
@@ -23,6 +23,7 @@ class Grain:
     name: str
     color: tuple[float, float, float]
     opacity: float
+    glassy: bool
     roughness: float
     specular: float
     translucency: float = 0.0
@@ -48,7 +49,9 @@ class Balls:
         roughness, specular = (0.05, 0.02) if points.glassy else (0.8, 0.04)
         red, green, blue = points.color
         color = (red, green, blue)
-        self.material = Grain(points.name, color, points.opacity, roughness, specular)
+        self.material = Grain(
+            points.name, color, points.opacity, points.glassy, roughness, specular
+        )
         count = len(points.ids)
         self.transforms = np.zeros((count, 8), np.float32)
         self.transforms[:, :3], self.transforms[:, 3] = points.positions, points.radii

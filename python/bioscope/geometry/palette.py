@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from bioscope._engine import Batch
-    from bioscope.export.balls import Balls
+    from bioscope.geometry.balls import Balls
 
 Color = tuple[float, float, float]
 

@@ -1,0 +1,188 @@
+use std::sync::Arc;
+
+use bioscope_core::{Annotation, Error, Intention, Mark, Percepts, Random, Result, Vec3};
+use bioscope_minds::Mind;
+use bioscope_populations::animals::Kinds;
+use bioscope_populations::catalog;
+use pyo3::prelude::*;
+use pyo3::types::{PyBytes, PyDict, PyList};
+
+use crate::error::{from_python, to_python};
+use crate::population::Resident;
+use crate::values;
+
+/// A mind written in Python (`bioscope.Mind`).
+pub struct PythonMind {
+    object: Py<PyAny>,
+    name: String,
+}
+
+impl PythonMind {
+    /// Brings one back from its saved state by the class registered under its name.
+    fn rebuild(name: &str, bytes: &[u8]) -> Result<Self> {
+        let build = |py: Python<'_>| -> PyResult<Py<PyAny>> {
+            let module = py.import("bioscope.minds")?;
+            module.call_method1("rebuild", (name, PyBytes::new(py, bytes))).map(Bound::unbind)
+        };
+        let object = Python::attach(build).map_err(|error| from_python(name, "restore", error))?;
+        Ok(Self { object, name: name.to_owned() })
+    }
+}
+
+impl Mind for PythonMind {
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn decide(
+        &mut self,
+        percepts: &Percepts,
+        random: &mut Random,
+        annotations: &mut Vec<Annotation>,
+    ) -> Result<Intention> {
+        let call = |py: Python<'_>| {
+            let noticed = percepts_dict(py, percepts, random)?;
+            let wanted = self.object.bind(py).call_method1("decide", (noticed,))?;
+            intention(&wanted.cast_into::<PyDict>()?)
+        };
+        let intention =
+            Python::attach(call).map_err(|error| from_python(&self.name, "decide", error))?;
+        let to = intention.heading.normalize_or_zero();
+        annotations.push(Annotation {
+            subject: bioscope_core::NOTHING,
+            role: String::from("heading"),
+            mark: Mark::Line { from: Vec3::ZERO, to },
+        });
+        Ok(intention)
+    }
+
+    fn save(&self) -> Result<Vec<u8>> {
+        Python::attach(|py| self.object.bind(py).call_method0("_save")?.extract())
+            .map_err(|error| from_python(&self.name, "save", error))
+    }
+}
+
+/// Fish with minds made by a Python function; `options` is a JSON object.
+#[pyfunction]
+pub fn fish_with_minds(
+    options: &str,
+    make: &Bound<'_, PyAny>,
+    kinds: Vec<String>,
+) -> PyResult<Resident> {
+    let mut minds = Vec::new();
+    let count = serde_json::from_str::<serde_json::Value>(options)
+        .ok()
+        .and_then(|options| options["count"].as_u64())
+        .unwrap_or(0);
+    for _ in 0..count {
+        let object = make.call0()?;
+        let name: String = object.get_type().getattr("kind")?.extract()?;
+        minds.push(PythonMind { object: object.unbind(), name });
+    }
+    let minds = std::cell::RefCell::new(minds);
+    let next = || minds.borrow_mut().pop().map(|mind| Box::new(mind) as Box<dyn Mind>);
+    let animals = catalog::fish_with_minds(options, &next, parts(kinds)).map_err(to_python)?;
+    Ok(Resident::new(Box::new(animals)))
+}
+
+/// Constructors of the parts of animals, Python minds of these kinds among them.
+pub fn parts(kinds: Vec<String>) -> Arc<Kinds> {
+    let mut known = Kinds::default();
+    for kind in kinds {
+        let name = kind.clone();
+        known.add_mind(&kind, move |bytes| Ok(Box::new(PythonMind::rebuild(&name, bytes)?)));
+    }
+    Arc::new(known)
+}
+
+fn percepts_dict<'py>(
+    py: Python<'py>,
+    percepts: &Percepts,
+    random: &mut Random,
+) -> PyResult<Bound<'py, PyDict>> {
+    let dict = PyDict::new(py);
+    dict.set_item("time", percepts.time)?;
+    dict.set_item("dt", percepts.dt)?;
+    dict.set_item("velocity", percepts.velocity.to_array())?;
+    dict.set_item("attitude", percepts.attitude.to_array())?;
+    dict.set_item("body_length", percepts.body_length)?;
+    dict.set_item("depth", percepts.depth)?;
+    dict.set_item("home", percepts.home.to_array())?;
+    dict.set_item("flow", percepts.flow.to_array())?;
+    dict.set_item("light", percepts.light)?;
+    dict.set_item("temperature", percepts.temperature)?;
+    dict.set_item("random", [(); 4].map(|()| random.uniform()))?;
+    let seen = PyList::empty(py);
+    for one in &percepts.seen {
+        let sighting = PyDict::new(py);
+        sighting.set_item("id", one.id)?;
+        sighting.set_item("species", &*one.species)?;
+        sighting.set_item("position", one.position.to_array())?;
+        sighting.set_item("velocity", one.velocity.to_array())?;
+        sighting.set_item("size", one.size)?;
+        seen.append(sighting)?;
+    }
+    dict.set_item("seen", seen)?;
+    let ahead = match percepts.ahead {
+        None => py.None().into_bound(py),
+        Some(impact) => {
+            let ahead = PyDict::new(py);
+            ahead.set_item("distance", impact.distance)?;
+            ahead.set_item("aim", impact.aim.to_array())?;
+            ahead.into_any()
+        }
+    };
+    dict.set_item("ahead", ahead)?;
+    let heard = PyList::empty(py);
+    for one in &percepts.heard {
+        let hearing = PyDict::new(py);
+        hearing.set_item("source", one.source)?;
+        hearing.set_item("kind", &one.kind)?;
+        hearing.set_item("direction", one.direction.to_array())?;
+        hearing.set_item("amplitude", one.amplitude)?;
+        heard.append(hearing)?;
+    }
+    dict.set_item("heard", heard)?;
+    dict.set_item("other", values::dict(py, &percepts.other)?)?;
+    Ok(dict)
+}
+
+/// An intention from the dict that a Python mind returned; every number must be finite.
+fn intention(wanted: &Bound<'_, PyDict>) -> PyResult<Intention> {
+    let mut intention = Intention { speed: 1.0, urgency: 0.5, ..Intention::default() };
+    for (name, value) in wanted.iter() {
+        match name.extract::<String>()?.as_str() {
+            "behavior" => intention.behavior = value.extract::<String>()?.into(),
+            "heading" => intention.heading = vector("heading", &value)?,
+            "speed" => intention.speed = number("speed", &value)?,
+            "urgency" => intention.urgency = number("urgency", &value)?,
+            "gaze" => intention.gaze = Some(vector("gaze", &value)?),
+            "target" => intention.target = value.extract()?,
+            other => {
+                let known = ["behavior", "heading", "speed", "urgency", "gaze", "target"];
+                return Err(to_python(Error::Unknown {
+                    kind: "part of an intention",
+                    name: other.to_owned(),
+                    known: known.map(str::to_owned).to_vec(),
+                }));
+            }
+        }
+    }
+    Ok(intention)
+}
+
+fn vector(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Vec3> {
+    let vector = Vec3::from_array(value.extract()?);
+    if vector.is_finite() {
+        return Ok(vector);
+    }
+    Err(to_python(Error::value(name, vector, "three finite numbers")))
+}
+
+fn number(name: &str, value: &Bound<'_, PyAny>) -> PyResult<f32> {
+    let number: f32 = value.extract()?;
+    if number.is_finite() {
+        return Ok(number);
+    }
+    Err(to_python(Error::value(name, number, "a finite number")))
+}
