@@ -1,10 +1,9 @@
 """The path tracer: light that bounces, soft sky, depth of field, with Mitsuba 3.
 
-A picture is made of four renderings and the water's own formulae:
+A picture is made of some renderings and the water's own formulae:
 
-* the sun alone, without bounces: sharp and free of noise, and with it what each pixel sees (distance,
-  place, normal);
-* a lamp at the eye, which shows the surfaces' own colors;
+* the distance of what each pixel sees, and its color in the light of a lamp at the eye;
+* the sun alone, without bounces: sharp and free of noise;
 * the sun with its bounces, of which only the bounced part is used;
 * the sky alone, with bounces; under water the sky is the glow of the water all round.
 
@@ -24,7 +23,7 @@ import numpy as np
 from bioscope.errors import InvalidValueError
 from bioscope.film.focus import focus_distance
 from bioscope.film.light import Light, developed, water_from_above, window
-from bioscope.film.smoothing import smoothed
+from bioscope.film.smoothing import facing, smoothed
 from bioscope.film.staging import Staging
 from bioscope.film.variant import variant
 from bioscope.film.waves import Waves
@@ -95,15 +94,17 @@ class PathRenderer:
         if camera.fisheye:
             raise InvalidValueError("fish-eye camera: the path tracer has perspective ones only")
         light = Light(scene)
-        seen = self._seen(scene, camera, light)
         directions = self._directions(camera)
+        seen = self._seen(scene, camera, light, directions)
         radiance = Water(scene, light, camera).around(seen, directions)
         parts = self._parts
         width, height = self._size
         radiance = radiance.reshape(height, parts, width, parts, 3).mean(axis=(1, 3))
         return developed(radiance)
 
-    def _seen(self, scene: Scene, camera: Camera, light: Light) -> Seen:
+    def _seen(
+        self, scene: Scene, camera: Camera, light: Light, directions: Floats
+    ) -> Seen:
         """Render the sun, its bounces and the sky."""
         mitsuba = self._mitsuba
         under = light.depth(camera.position[1]) > 0
@@ -115,14 +116,16 @@ class PathRenderer:
         staged = mitsuba.load_dict(entries)
         values = mitsuba.traverse(staged)
         quarter, half = max(1, self._samples // 4), max(1, self._samples // 2)
+        distance = self._pass(staged, _DISTANCE, quarter, scene.tick)
         self._choose(values, "lamp", light)
         colors = self._pass(staged, _DIRECT, 1, scene.tick)
         self._choose(values, "sun", light)
-        direct = self._pass(staged, _with_features(_DIRECT), quarter, scene.tick)
+        direct = self._pass(staged, _DIRECT, quarter, scene.tick)
         bounced = self._pass(staged, _PATH, quarter, scene.tick)
         self._choose(values, "sky", light)
         sky = self._pass(staged, _PATH, half, scene.tick)
-        return Seen(colors, direct, bounced, sky)
+        eye = np.array(camera.position, np.float32)
+        return Seen(eye, directions, (distance, colors, direct, bounced, sky))
 
     def _pass(self, staged: Any, integrator: dict[str, Any], samples: int, seed: int) -> Floats:
         loaded = self._mitsuba.load_dict(integrator)
@@ -205,11 +208,7 @@ class PathRenderer:
 
 _PATH = {"type": "path", "max_depth": _BOUNCES + 1, "hide_emitters": True}
 _DIRECT = {"type": "direct", "hide_emitters": True, "emitter_samples": 1, "bsdf_samples": 0}
-_FEATURES = "distance:depth,place:position,normal:sh_normal"
-
-
-def _with_features(integrator: dict[str, Any]) -> dict[str, Any]:
-    return {"type": "aov", "aovs": _FEATURES, "light": integrator}
+_DISTANCE = {"type": "depth"}
 
 
 def _lamp(camera: Camera) -> dict[str, Any]:
@@ -229,22 +228,20 @@ def _axes(camera: Camera) -> NDArray[np.float64]:
 class Seen:
     """What the renderings say of each part of a pixel."""
 
-    def __init__(self, lamp: Floats, direct: Floats, bounced: Floats, sky: Floats) -> None:
-        self.cover = np.clip(direct[..., 3], 0.0, 1.0)
+    def __init__(self, eye: Floats, directions: Floats, passes: tuple[Floats, ...]) -> None:
+        distance, lamp, direct, bounced, sky = passes
+        self.cover = np.clip(distance[..., -1], 0.0, 1.0)
         """Share of the part that sees any thing."""
-        whole = np.maximum(self.cover, 1e-6)
-        self.distance = direct[..., 4] / whole
-        self.place = direct[..., 5:8] / whole[..., None]
-        normals = direct[..., 8:11]
-        lengths = np.linalg.norm(normals, axis=-1, keepdims=True)
+        self.distance = distance[..., 0] / np.maximum(self.cover, 1e-6)
+        self.place = eye + directions * self.distance[..., None]
         # The lamp's light falls off with distance; how it slants does not matter for what follows.
         color = np.maximum(lamp[..., :3] * self.distance[..., None] ** 2, 0.02)
+        normals = facing(self.place)
         soft = [bounced[..., :3] - direct[..., :3], sky[..., :3]]
-        normals = normals / np.maximum(lengths, 1e-6)
-        guided = [smoothed(one / color, normals, self.distance, _SMOOTHING) * color for one in soft]
+        soft = [smoothed(one / color, normals, self.distance, _SMOOTHING) * color for one in soft]
         self.sun = direct[..., :3]
         """Sunlight thrown back at once, as if there were no water."""
-        self.rest = np.maximum(guided[0], 0.0) + guided[1]
+        self.rest = np.maximum(soft[0], 0.0) + soft[1]
         """All other light, as if there were no water."""
 
 

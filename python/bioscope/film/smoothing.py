@@ -36,6 +36,14 @@ def smoothed(light: Floats, normals: Floats, distances: Floats, levels: int) -> 
     return light
 
 
+def facing(places: Floats) -> Floats:
+    """Return the unit normals (rows, columns, 3) of the surfaces through places (rows, columns, 3)."""
+    down, across = (np.gradient(places, axis=axis) for axis in (0, 1))
+    normals = np.cross(down, across)
+    lengths = np.linalg.norm(normals, axis=-1, keepdims=True)
+    return (normals / np.maximum(lengths, 1e-12)).astype(np.float32)
+
+
 def _level(light: Floats, normals: Floats, distances: Floats, step: int) -> Floats:
     # Separable: not exactly the two-dimensional kernel, but a fifth of its work.
     for axis in (0, 1):

@@ -17,6 +17,7 @@ from urllib.parse import quote, urlsplit
 from bioscope import _engine
 from bioscope.errors import BioscopeError, FormatError, InvalidValueError
 from bioscope.live import messages
+from bioscope.live.feed import Feed
 from bioscope.live.inspection import inspection
 from bioscope.live.messages import encode
 from bioscope.live.session import Session
@@ -33,8 +34,7 @@ if TYPE_CHECKING:
 
 PAGE = Path(__file__).parent / "page"
 _PORTS_TO_TRY = 50
-_FRAMES_UNDER_WAY = 2
-_INSPECTIONS_PER_SECOND = 10
+INSPECTIONS_PER_SECOND = 10
 _MESSAGES_QUEUED = 256
 _JOIN_WITHIN = 10.0
 REFUSED, MALFORMED, OTHER_VERSION = 4001, 4000, 4002
@@ -48,13 +48,9 @@ class Client:
         self.socket = socket_
         self.wake = asyncio.Event()
         self.messages: asyncio.Queue[bytes] = asyncio.Queue(_MESSAGES_QUEUED)
-        self.known: set[int] = set()
-        self.revision = -1
-        self.number = -1
-        self.under_way = 0
+        self.feed = Feed()
         self.selected = 0
         self.retina = (96, 96)
-        self.annotations = False
 
     def tell(self, message: bytes) -> None:
         """Queue a message; drop the oldest if the page does not keep up."""
@@ -173,13 +169,7 @@ class Live:
             text = f"The page is of version {command.version}, the world of {_engine.VERSION}: reload."
             await self._refuse(client, OTHER_VERSION, text)
             return False
-        session = self.session
-        for message in (
-            session.hello(),
-            session.parameters(),
-            session.past_events(),
-            session.timeline_message(),
-        ):
+        for message in self.session.greeting():
             client.tell(message)
         return True
 
@@ -207,18 +197,18 @@ class Live:
                 case messages.Join():
                     pass
                 case messages.Seen():
-                    client.under_way = max(0, client.under_way - 1)
+                    client.feed.seen()
                     client.wake.set()
                 case messages.Select(id=chosen, retina=retina):
                     client.selected, client.retina = chosen, retina
                 case messages.Annotations(on=on):
-                    client.annotations = on
+                    client.feed.annotations = on
                     self._count_annotations()
                 case _:
                     self.session.command(command, answer)
 
     def _count_annotations(self) -> None:
-        self.session.annotations = sum(client.annotations for client in self.clients)
+        self.session.annotations = sum(client.feed.annotations for client in self.clients)
 
     async def _send(self, client: Client) -> None:
         while True:
@@ -226,24 +216,13 @@ class Live:
             client.wake.clear()
             while not client.messages.empty():
                 await client.socket.send_bytes(client.messages.get_nowait())
-            now = self.session.snapshot
-            if now.number == client.number or client.under_way >= _FRAMES_UNDER_WAY:
-                continue
-            if now.revision != client.revision or not client.known.issuperset(now.assets):
-                for key, asset in now.assets.items():
-                    if key not in client.known:
-                        await client.socket.send_bytes(asset)
-                client.known = set(now.assets)
-                await client.socket.send_bytes(now.layout)
-                client.revision = now.revision
-            client.number = now.number
-            client.under_way += 1
-            await client.socket.send_bytes(now.annotated if client.annotations else now.frame)
+            for message in client.feed.due(self.session.snapshot):
+                await client.socket.send_bytes(message)
 
     async def _inspect(self, client: Client) -> None:
         loop = asyncio.get_running_loop()
         while True:
-            await asyncio.sleep(1 / _INSPECTIONS_PER_SECOND)
+            await asyncio.sleep(1 / INSPECTIONS_PER_SECOND)
             if not client.selected:
                 continue
             chosen, size = client.selected, client.retina

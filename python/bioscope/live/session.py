@@ -102,7 +102,16 @@ class Session:
         self.world.drain_events()
         self._frame()
 
+    @property
+    def closed(self) -> bool:
+        """Whether the session has ended."""
+        return self._closed
+
     # What pages are told.
+
+    def greeting(self) -> list[bytes]:
+        """Return the first messages to a page."""
+        return [self.hello(), self.parameters(), self.past_events(), self.timeline_message()]
 
     def hello(self) -> bytes:
         """Return the first message to a page."""

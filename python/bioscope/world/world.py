@@ -217,6 +217,37 @@ class World:
 
         export_world(self, path, seconds, fps, **options)
 
+    def film(
+        self,
+        path: str | PathLike[str],
+        seconds: float = 10.0,
+        *,
+        size: tuple[int, int] = (1280, 720),
+        frames_per_second: float = 30.0,
+        renderer: str = "preview",
+        camera: str | None = None,
+    ) -> None:
+        """Film the world for `seconds` of its time, with sound, to an MP4 file.
+
+        See `bioscope.film.FilmOptions`. The world's own shot list is filmed without a `camera`.
+        """
+        from bioscope.film import FilmOptions, film_world
+
+        options = FilmOptions(
+            seconds=seconds,
+            size=size,
+            frames_per_second=frames_per_second,
+            renderer=renderer,
+            camera=camera,
+        )
+        film_world(self, Path(path), options, say=lambda *_: None)
+
+    def show(self, *, height: int = 560) -> Any:
+        """Show the world live: inside a notebook as a widget, else in the browser until Ctrl-C."""
+        from bioscope.live.notebook import show
+
+        return show(self, height=height)
+
     def record(self) -> None:
         """Begin to record: from now on every change from outside is kept."""
         self._engine.record()
