@@ -199,8 +199,10 @@ export class Keeping {
     });
   }
 
+  /** Name for a file to keep, without its ending. */
   private fileName(): string {
     const { hello } = this.viewer.session;
-    return `${hello?.world ?? "world"}-${hello?.seed ?? 0}-${this.viewer.loop.frame?.tick ?? 0}`;
+    const name = (hello?.title ?? "world").replace(/[^\p{L}\p{N}]+/gu, "-");
+    return `${name}-${hello?.seed ?? 0}-${this.viewer.loop.frame?.tick ?? 0}`;
   }
 }

@@ -221,7 +221,7 @@ export class FrameLoop {
     const { name } = QUALITIES[this.governor.level];
     const last = this.governor.level === QUALITIES.length - 1;
     if (last) {
-      this.viewer.notices.stand("slow", {
+      this.viewer.notices.tell({
         level: "warning",
         text: "This machine draws slowly, so the picture is coarse.",
         remedy: "A smaller window helps, or hardware acceleration switched on in the browser.",
