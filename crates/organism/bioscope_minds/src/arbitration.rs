@@ -30,18 +30,19 @@ pub fn prioritized(requests: &[Vec3], budget: f32) -> Allocation {
     let mut allocation = Allocation { acceleration: Vec3::ZERO, winner: None };
     let (mut used, mut most) = (0.0, 0.0);
     for (index, &request) in requests.iter().enumerate() {
-        let magnitude = request.length();
-        if magnitude == 0.0 {
+        if request == Vec3::ZERO {
             continue;
         }
+        let magnitude = request.length();
         let granted = magnitude.min(budget - used);
-        allocation.acceleration += request * (granted / magnitude);
         if granted > most {
             (most, allocation.winner) = (granted, Some(index));
         }
-        if used + magnitude > budget {
+        if granted < magnitude {
+            allocation.acceleration += request * (granted / magnitude);
             break;
         }
+        allocation.acceleration += request;
         used += magnitude;
     }
     allocation

@@ -5,8 +5,9 @@
 
 use std::time::{Duration, Instant};
 
-use bioscope_core::Result;
-use bioscope_crowds::{Flock, FlockParameters, Region, Surroundings};
+use bioscope_core::{Purpose, Random, Result, Vec3};
+use bioscope_crowds::{Flock, FlockParameters, Home, Region, Surroundings};
+use bioscope_geometry::Obstacle;
 
 const NEIGHBORS: f32 = 12.5;
 const DT: f32 = 1.0 / 60.0;
@@ -17,6 +18,31 @@ fn main() -> Result<()> {
     println!("threads {}", rayon::current_num_threads());
     for count in [1_000, 10_000, 100_000] {
         measure(count)?;
+    }
+    among_obstacles()
+}
+
+/// What steering round a hundred rocks costs a school of three hundred.
+fn among_obstacles() -> Result<()> {
+    let parameters = FlockParameters { body_length: 0.1, ..FlockParameters::default() };
+    let region = Region::Box { center: Vec3::ZERO, half: Vec3::new(3.0, 1.0, 3.0) };
+    let mut random = Random::new(1, 0, 0, Purpose::new("rocks"));
+    let mut rock = || {
+        let center = random.in_ball() * Vec3::new(8.0, 3.0, 8.0);
+        Obstacle::Sphere { center, radius: random.range(0.1, 0.6) }
+    };
+    let rocks: Vec<Obstacle> = (0..100).map(|_| rock()).collect();
+    for obstacles in [&rocks[..0], &rocks] {
+        let mut flock = Flock::scattered(1..=300, region, 3, parameters.clone())?;
+        let home = Some(Home { center: Vec3::ZERO, radius: 4.0 });
+        let surroundings = Surroundings { obstacles, home, ..Surroundings::default() };
+        let mut best = Duration::MAX;
+        for _ in 0..600 {
+            let start = Instant::now();
+            flock.update(DT, &surroundings)?;
+            best = best.min(start.elapsed());
+        }
+        println!("300 members, {:3} obstacles: {best:?} per tick at best", obstacles.len());
     }
     Ok(())
 }

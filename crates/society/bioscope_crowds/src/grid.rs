@@ -121,18 +121,19 @@ impl Grid {
         if self.starts.is_empty() {
             return;
         }
-        let side = |axis: usize| self.masks[axis] + 1;
+        let sides = self.masks.map(|mask| mask + 1);
         let span = |axis: usize| {
             let cells = i64::from(high[axis]) - i64::from(low[axis]) + 1;
-            usize::try_from(cells).unwrap_or(0).min(side(axis))
+            usize::try_from(cells).unwrap_or(0).min(sides[axis])
         };
         let first = |axis: usize| low[axis] as usize & self.masks[axis];
-        let (x, length) = (first(0), span(0));
-        let straight = length.min(side(0) - x);
-        for z in 0..span(2) {
-            let layer = ((first(2) + z) & self.masks[2]) * side(1);
-            for y in 0..span(1) {
-                let row = (layer + ((first(1) + y) & self.masks[1])) * side(0);
+        let (x, y, z) = (first(0), first(1), first(2));
+        let (length, rows, layers) = (span(0), span(1), span(2));
+        let straight = length.min(sides[0] - x);
+        for layer in z..z + layers {
+            let layer = (layer & self.masks[2]) * sides[1];
+            for row in y..y + rows {
+                let row = (layer + (row & self.masks[1])) * sides[0];
                 visit(self.run(row + x, straight));
                 if straight < length {
                     visit(self.run(row, length - straight));

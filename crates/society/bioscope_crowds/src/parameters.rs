@@ -9,8 +9,8 @@ parameters! {
         body_length: f32 = 1.0, "m", 0.001..=100.0, "choice";
         /// Distance within which others are neighbors.
         radius: f32 = 10.0, "BL", 0.5..=100.0, "checked";
-        /// Falloff k of a neighbor's weight with distance d: max(d, 0.5 BL)^-k.
-        exponent: f32 = 2.0, "1", 0.0..=6.0, "checked (2 as in Reynolds 1987; 3 seen in fish)";
+        /// Falloff k of a neighbor's weight with distance d, max(d, 0.5 BL)^-k; -1 for springs.
+        exponent: f32 = 2.0, "1", -1.0..=6.0, "checked (2 as in Reynolds 1987; 3 seen in fish)";
         /// Greatest number of neighbors heeded, the nearest first; 0 for all in the radius.
         maximum_neighbors: f32 = 0.0, "1", 0.0..=64.0, "choice (6 to 7 in starlings)";
         /// Gain of keeping apart.

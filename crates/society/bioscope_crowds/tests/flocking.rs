@@ -142,7 +142,7 @@ fn plainly(flock: &Flock, index: usize, exponent: f32, radius: f32) -> (Vec3, Ve
 
 #[test]
 fn neighbors_weigh_by_the_power_of_their_distance_and_nothing_beyond_the_radius() {
-    for exponent in [0.0, 1.0, 1.7, 2.0, 3.0] {
+    for exponent in [-1.0, 0.0, 1.0, 1.7, 2.0, 3.0] {
         let parameters = FlockParameters { exponent, radius: 3.0, ..FlockParameters::default() };
         let mut flock = Flock::scattered(1..=400, cube(6.0), 5, parameters).unwrap();
         flock.sense(&Surroundings::default());

@@ -17,7 +17,8 @@ const MOST_FOURS: usize = 1024;
 #[derive(Clone, Copy, Debug)]
 struct Four {
     first: u32,
-    count: u32,
+    /// Which of the four are meant, one bit each.
+    meant: u32,
 }
 
 /// Positions and velocities of all, by slot.
@@ -45,7 +46,7 @@ pub struct Perception {
 }
 
 /// Weighted sums over the neighbors.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug)]
 pub struct Sums {
     /// Σ w (pⱼ − pᵢ).
     pub toward: Vec3,
@@ -67,8 +68,11 @@ pub struct Neighborhood {
     cell: Option<Cell>,
     /// All in the cell and in the 26 cells around it.
     candidates: Vec<Four>,
-    /// Slots of the neighbors, in the order of the candidates.
-    neighbors: Vec<u32>,
+    /// Slots of all within the radius, in the order of the candidates; room for all of them and
+    /// four more.
+    slots: Vec<u32>,
+    /// How many slots are those of neighbors.
+    found: usize,
     /// Squared distance and slot of each, where only the nearest count.
     ranking: Vec<(f32, u32)>,
 }
@@ -88,6 +92,7 @@ impl Neighborhood {
             let stride = self.candidates.len().div_ceil(MOST_FOURS);
             self.candidates = self.candidates.iter().step_by(stride).copied().collect();
         }
+        self.slots.resize(4 * self.candidates.len() + 4, 0);
         true
     }
 
@@ -95,73 +100,70 @@ impl Neighborhood {
     fn add(&mut self, Range { start, end }: Range<usize>) {
         let mut first = start;
         while first < end {
-            let count = (end - first).min(4) as u32;
-            self.candidates.push(Four { first: first as u32, count });
+            let count = (end - first).min(4);
+            self.candidates.push(Four { first: first as u32, meant: (1 << count) - 1 });
             first += 4;
         }
     }
 
     /// Weighted sums over the neighbors.
     pub fn sums(&mut self, sorted: Sorted, perception: &Perception) -> Sums {
-        let coincident = self.sieve(sorted.positions, perception);
-        if self.neighbors.len() > perception.most {
+        self.sieve(sorted.positions, perception);
+        if self.found > perception.most {
             self.keep_nearest(sorted.positions, perception);
         }
-        let count = self.neighbors.len();
         let nobody = sorted.rows.len() as u32 - 1;
-        self.neighbors.resize(count.next_multiple_of(4), nobody);
-        let weighed = match perception.exponent {
+        self.slots[self.found..self.found + 3].fill(nobody);
+        match perception.exponent {
             1.0 => self.weigh(sorted.rows, perception, |_, floored| floored),
             2.0 => self.weigh(sorted.rows, perception, |square, _| square),
             3.0 => self.weigh(sorted.rows, perception, |square, floored| square * floored),
             exponent => self.weigh(sorted.rows, perception, |_, floored| {
                 f32x4::new(floored.to_array().map(|distance| math::pow(distance, exponent)))
             }),
-        };
-        Sums { count, coincident, ..weighed }
+        }
     }
 
-    /// Finds the neighbors among the candidates: all within the radius but not in the very same
-    /// place; returns whether another than the individual itself is there.
-    fn sieve(&mut self, positions: &Columns, perception: &Perception) -> bool {
-        let zero = f32x4::splat(0.0);
+    /// Finds all candidates within the radius, the individual itself included.
+    fn sieve(&mut self, positions: &Columns, perception: &Perception) {
         let limit = f32x4::splat(perception.radius * perception.radius);
         let Vec3 { x, y, z } = perception.place;
         let here = [f32x4::splat(x), f32x4::splat(y), f32x4::splat(z)];
         let columns = positions.all();
-        // Four are always written, so there must be room for as many after the last.
-        self.neighbors.resize(4 * self.candidates.len() + 4, 0);
-        let (mut found, mut same) = (0, 0);
-        for &Four { first, count } in &self.candidates {
+        let mut found = 0;
+        for &Four { first, meant } in &self.candidates {
             let way = |axis: usize| four(columns[axis], first as usize) - here[axis];
             let (x, y, z) = (way(0), way(1), way(2));
-            let square = x * x + y * y + z * z;
-            let meant = (1 << count) - 1;
-            let near = square.simd_lt(limit).to_bitmask() & meant;
-            let apart = square.simd_gt(zero).to_bitmask();
-            let chosen = &CHOSEN[(near & apart) as usize];
-            let room = &mut self.neighbors[found..found + 4];
-            for (slot, lane) in room.iter_mut().zip(chosen.lanes) {
+            let near = (x * x + y * y + z * z).simd_lt(limit).to_bitmask() & meant;
+            // Four are always written; those that are not near are overwritten by the next.
+            let lanes = &CHOSEN[near as usize & 15];
+            let room = &mut self.slots[found..found + 4];
+            for (slot, lane) in room.iter_mut().zip(lanes) {
                 *slot = first + lane;
             }
-            found += chosen.count;
-            same += CHOSEN[(near & !apart) as usize].count;
+            found += usize::from(COUNT[near as usize & 15]);
         }
-        self.neighbors.truncate(found);
-        same > 1
+        self.found = found;
     }
 
-    /// Keeps only as many neighbors as are heeded, the nearest.
+    /// Keeps only as many neighbors as are heeded, the nearest, and all in the very same place.
     fn keep_nearest(&mut self, positions: &Columns, perception: &Perception) {
         let Perception { place, most, .. } = *perception;
         let square = |slot: u32| positions.at(slot as usize).distance_squared(place);
-        self.ranking.clear();
-        self.ranking.extend(self.neighbors.iter().map(|&slot| (square(slot), slot)));
-        self.ranking.select_nth_unstable_by(most, |a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        self.ranking.truncate(most);
-        self.ranking.sort_unstable_by_key(|one| one.1);
-        self.neighbors.clear();
-        self.neighbors.extend(self.ranking.iter().map(|one| one.1));
+        let ranking = &mut self.ranking;
+        ranking.clear();
+        ranking.extend(self.slots[..self.found].iter().map(|&slot| (square(slot), slot)));
+        let same = ranking.iter().filter(|one| one.0 == 0.0).count();
+        let kept = (most + same).min(ranking.len());
+        if kept < ranking.len() {
+            ranking.select_nth_unstable_by(kept, |a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        }
+        ranking.truncate(kept);
+        ranking.sort_unstable_by_key(|one| one.1);
+        for (slot, one) in self.slots.iter_mut().zip(ranking) {
+            *slot = one.1;
+        }
+        self.found = kept;
     }
 
     /// `power` gives max(d, least)^k from its square and itself.
@@ -180,18 +182,18 @@ impl Neighborhood {
         let mut toward = [zero; 3];
         let mut crowding = [zero; 3];
         let mut motion = [zero; 3];
-        let mut weights = zero;
-        for slots in self.neighbors.as_chunks().0 {
+        let [mut weights, mut count, mut same] = [zero, zero, zero];
+        for slots in self.slots[..self.found.next_multiple_of(4)].as_chunks().0 {
             let [a, b, c, d]: [&Row; 4] = slots.each_ref().map(|&slot| &rows[slot as usize]);
             let way = f32x4::transpose([a[0] - here, b[0] - here, c[0] - here, d[0] - here]);
             let velocity = f32x4::transpose([a[1], b[1], c[1], d[1]]);
             let square = way[0] * way[0] + way[1] * way[1] + way[2] * way[2];
             let distance = square.sqrt();
             let floored = distance.fast_max(least);
-            // Those that fill up the last four are nowhere near.
-            let near = square.simd_lt(limit);
+            // Those that fill up the last four are nowhere near; others may be in the same place.
+            let (near, apart) = (square.simd_lt(limit), square.simd_gt(zero));
             let inverse = one / (power(floored * floored, floored) * distance);
-            let by_distance = inverse & near;
+            let by_distance = inverse & near & apart;
             let weight = by_distance * distance;
             for axis in 0..3 {
                 crowding[axis] += by_distance * way[axis];
@@ -199,13 +201,17 @@ impl Neighborhood {
                 motion[axis] += weight * velocity[axis];
             }
             weights += weight;
+            count += one & near & apart;
+            same += one - (one & apart);
         }
         Sums {
             toward: total(toward),
             crowding: total(crowding),
             motion: total(motion),
             weight: across(weights),
-            ..Sums::default()
+            count: across(count) as usize,
+            // One of them is the individual itself.
+            coincident: across(same) > 1.0,
         }
     }
 }
@@ -220,24 +226,16 @@ fn across(lanes: f32x4) -> f32 {
     (a + b) + (c + d)
 }
 
-/// Which of four lanes are chosen, moved to the front, and how many.
-#[derive(Clone, Copy)]
-struct Chosen {
-    lanes: [u32; 4],
-    count: usize,
-}
-
-/// What each mask of four bits chooses.
-const CHOSEN: [Chosen; 16] = {
-    let mut all = [Chosen { lanes: [0; 4], count: 0 }; 16];
+/// For each mask of four bits, the lanes that it chooses, moved to the front.
+const CHOSEN: [[u32; 4]; 16] = {
+    let mut all = [[0; 4]; 16];
     let mut mask = 0;
     while mask < 16 {
-        let mut lane = 0;
+        let (mut lane, mut count) = (0, 0);
         while lane < 4 {
             if mask >> lane & 1 == 1 {
-                let chosen = &mut all[mask];
-                chosen.lanes[chosen.count] = lane as u32;
-                chosen.count += 1;
+                all[mask][count] = lane as u32;
+                count += 1;
             }
             lane += 1;
         }
@@ -245,3 +243,6 @@ const CHOSEN: [Chosen; 16] = {
     }
     all
 };
+
+/// How many bits each mask of four bits has.
+const COUNT: [u8; 16] = [0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4];
