@@ -127,7 +127,11 @@ export class ParameterPane {
       const values = { [name]: parameter.value };
       const label =
         unit && unit !== "1" ? `${name.replaceAll("_", " ")}, ${unit}` : name.replaceAll("_", " ");
-      const binding = folder.addBinding(values, name, { label, ...rangeOf(min, max) }) as BindingApi;
+      const binding = folder.addBinding(values, name, {
+        label,
+        format: shortest,
+        ...rangeOf(min, max),
+      }) as BindingApi;
       binding.element.title = describe(parameter);
       this.bindings.set(`${owner.name}:${name}`, { values, binding });
       let from = parameter.value;
@@ -154,6 +158,11 @@ export class ParameterPane {
   }
 }
 
+/** A number as short as its first five figures allow. */
+function shortest(number: number): string {
+  return String(Number(number.toPrecision(5)));
+}
+
 function rangeOf(min: number, max: number): { min?: number; max?: number; step?: number } {
   if (!Number.isFinite(min) || !Number.isFinite(max)) return {};
   return { min, max };
@@ -161,7 +170,7 @@ function rangeOf(min: number, max: number): { min?: number; max?: number; step?:
 
 function describe({ meaning, source, default: usual, unit, minimum, maximum }: Parameter): string {
   const tail = unit && unit !== "1" ? ` ${unit}` : "";
-  return `${meaning}\n${minimum} to ${maximum}${tail}, usually ${usual}${tail}\nSource: ${source}`;
+  return `${meaning}\n${shortest(minimum)} to ${shortest(maximum)}${tail}, usually ${shortest(usual)}${tail}\nSource: ${source}`;
 }
 
 function shapeOf(owners: Owner[]): string {

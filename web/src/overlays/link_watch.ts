@@ -11,7 +11,8 @@ const UNREADABLE = 1;
 /** Says what is wrong with the connection, the world or the graphics, and what helps. */
 export class LinkWatch {
   private readonly timer: number;
-  private lastFrame = performance.now();
+  /** Looks at the clock, a second apart, since the last frame: a page that is held up itself makes fewer. */
+  private silent = 0;
   private running = false;
   private unreadable = 0;
 
@@ -22,10 +23,10 @@ export class LinkWatch {
     session.on("hello", () => {
       notices.stand("link", null);
       notices.stand("world", null);
-      this.lastFrame = performance.now();
+      this.silent = 0;
     });
     session.on("frame", (frame) => {
-      this.lastFrame = performance.now();
+      this.silent = 0;
       this.running = frame.running;
       notices.stand("silence", null);
     });
@@ -77,13 +78,12 @@ export class LinkWatch {
 
   private look(): void {
     const { session, notices, keeping, loop } = this.viewer;
-    const silent = (performance.now() - this.lastFrame) / 1000;
-    if (document.visibilityState !== "visible") this.lastFrame = performance.now();
-    if (!session.connected || !this.running || keeping.video || silent < SILENCE) return;
+    if (document.visibilityState !== "visible" || keeping.video) this.silent = 0;
+    if (!session.connected || !this.running || ++this.silent < SILENCE) return;
     if (loop.picturesSinceFrame < PICTURES) return;
     notices.stand("silence", {
       level: "warning",
-      text: `The world has sent nothing for ${Math.round(silent)} s.`,
+      text: `The world has sent nothing for ${this.silent} s.`,
       remedy: "It may be busy; the window in which it runs says more.",
       button: { label: "connect anew", run: () => session.transport.reconnect() },
     });
