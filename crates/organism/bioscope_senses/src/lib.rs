@@ -11,6 +11,8 @@ mod light;
 mod sense;
 mod sight;
 mod surroundings;
+#[cfg(test)]
+mod tests;
 mod touch;
 
 pub use eye::eye_camera;
