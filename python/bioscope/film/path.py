@@ -234,9 +234,10 @@ class Seen:
         """Share of the part that sees any thing."""
         self.distance = distance[..., 0] / np.maximum(self.cover, 1e-6)
         self.place = eye + directions * self.distance[..., None]
-        # The lamp's light falls off with distance; how it slants does not matter for what follows.
-        color = np.maximum(lamp[..., :3] * self.distance[..., None] ** 2, 0.02)
         normals = facing(self.place)
+        slant = np.abs(np.sum(normals * directions, axis=-1))
+        lit = self.distance**2 / np.maximum(slant, 0.15)
+        color = np.clip(lamp[..., :3] * lit[..., None], 0.02, 1.0)
         soft = [bounced[..., :3] - direct[..., :3], sky[..., :3]]
         soft = [smoothed(one / color, normals, self.distance, _SMOOTHING) * color for one in soft]
         self.sun = direct[..., :3]
