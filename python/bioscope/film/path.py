@@ -121,9 +121,9 @@ class PathRenderer:
         colors = self._pass(staged, _DIRECT, 1, scene.tick)
         self._choose(values, "sun", light)
         direct = self._pass(staged, _DIRECT, quarter, scene.tick)
-        bounced = self._pass(staged, _PATH, quarter, scene.tick)
+        bounced = self._pass(staged, _BOUNCING, quarter, scene.tick)
         self._choose(values, "sky", light)
-        sky = self._pass(staged, _PATH, half, scene.tick)
+        sky = self._pass(staged, _BOUNCING, half, scene.tick)
         eye = np.array(camera.position, np.float32)
         return Seen(eye, directions, (distance, colors, direct, bounced, sky))
 
@@ -206,8 +206,10 @@ class PathRenderer:
         return rays.astype(np.float32)
 
 
-_PATH = {"type": "path", "max_depth": _BOUNCES + 1, "hide_emitters": True}
-_DIRECT = {"type": "direct", "hide_emitters": True, "emitter_samples": 1, "bsdf_samples": 0}
+# Mitsuba's `volpath` rather than `path`: its shadows have the holes of cut-out surfaces, and its way of
+# hiding emitters goes together with instances (3.9.1's `path` crashes).
+_BOUNCING = {"type": "volpath", "max_depth": _BOUNCES + 1, "hide_emitters": True}
+_DIRECT = {"type": "volpath", "max_depth": 2, "hide_emitters": True}
 _DISTANCE = {"type": "depth"}
 
 
@@ -230,9 +232,9 @@ class Seen:
 
     def __init__(self, eye: Floats, directions: Floats, passes: tuple[Floats, ...]) -> None:
         distance, lamp, direct, bounced, sky = passes
-        self.cover = np.clip(distance[..., -1], 0.0, 1.0)
+        self.cover = np.clip(direct[..., 3], 0.0, 1.0)
         """Share of the part that sees any thing."""
-        self.distance = distance[..., 0] / np.maximum(self.cover, 1e-6)
+        self.distance = distance[..., 0] / np.maximum(distance[..., 3], 1e-6)
         self.place = eye + directions * self.distance[..., None]
         normals = facing(self.place)
         slant = np.abs(np.sum(normals * directions, axis=-1))

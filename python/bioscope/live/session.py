@@ -201,10 +201,11 @@ class Session:
     def _fail(self, error: Exception) -> None:
         """Stop at the last complete tick and say why."""
         self.running = False
-        told = traceback.format_exception(error)[-1] if not isinstance(error, BioscopeError) else error
-        place = traceback.extract_tb(error.__traceback__)[-1]
-        text = f"The world stopped at tick {self.world.tick}: {str(told).strip()}"
+        text = f"The world stopped at tick {self.world.tick}: {error}"
         if not isinstance(error, BioscopeError):
+            place = traceback.extract_tb(error.__traceback__)[-1]
+            kind = type(error).__name__
+            text = f"The world stopped at tick {self.world.tick}: {kind}: {error}"
             text += f" ({place.filename}:{place.lineno})"
         self._publish(encode("notice", level="error", text=text))
         self._frame()
