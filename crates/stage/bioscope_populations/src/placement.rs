@@ -51,8 +51,7 @@ impl Area {
         if good {
             return Ok(());
         }
-        let mut found = format!("{self:?}");
-        found.truncate(found.floor_char_boundary(120));
+        let found: String = format!("{self:?}").chars().take(120).collect();
         Err(Error::value("area", found, "a rectangle, a disk or a list of places, in metres"))
     }
 

@@ -27,7 +27,7 @@ parameters! {
         /// Share of the current's speed that it takes on.
         drift: f32 = 1.0, "1", 0.0..=2.0, "choice";
         /// Speed of its own slow, aimless motion.
-        swimming: f32 = 0.012, "m/s", 0.0..=0.5, "copepods cruise at about one to ten body lengths of 1 to 2 mm a second";
+        swimming: f32 = 0.012, "m/s", 0.0..=0.5, "copepods: a few lengths of 1 to 2 mm a second";
     }
 }
 

@@ -139,11 +139,12 @@ pub(crate) fn wrap_from_three_sides(mesh: &Mesh, texture_size: f32) -> Mesh {
 /// Projected diameters in pixels below which the second, third and fourth version of a mesh serve.
 const SIZES: [f32; 4] = [320.0, 110.0, 40.0, 14.0];
 
-/// A mesh with coarser versions: `build(0)` is the finest, `build(1)` the next, up to `build(count)`.
+/// A mesh with `count` coarser versions (up to 4): `build(0)` is the finest, `build(1)` the next.
 pub(crate) fn with_details(count: usize, build: impl Fn(u32) -> Mesh) -> Arc<Mesh> {
     let mut finest = build(0);
-    let coarser = (1..=count.min(SIZES.len()) as u32).map(|detail| Arc::new(build(detail)));
-    finest.levels = SIZES.into_iter().zip(coarser).collect();
+    let sizes = &SIZES[SIZES.len().saturating_sub(count)..];
+    let coarser = (1..=sizes.len() as u32).map(|detail| Arc::new(build(detail)));
+    finest.levels = sizes.iter().copied().zip(coarser).collect();
     Arc::new(finest)
 }
 

@@ -83,23 +83,24 @@ impl Ground {
     /// Ground in a state that `save` gave.
     pub fn from_saved(bytes: &[u8]) -> Result<Self> {
         let state = read(bytes)?;
-        let assets = Assets::build(&state)?;
-        Ok(Self { state, assets })
+        let terrain = state.terrain()?;
+        let assets = terrain.map(|terrain| Assets::build(&state.options, &terrain));
+        Ok(Self { state, assets: assets.unwrap_or_default() })
+    }
+}
+
+impl State {
+    /// The ground; none before the population has settled in a world with terrain.
+    fn terrain(&self) -> Result<Option<Arc<Terrain>>> {
+        match &self.options.relief {
+            Some(relief) => Ok(Some(Arc::new(relief.terrain()?))),
+            None => Ok(self.terrain.clone().map(Arc::new)),
+        }
     }
 }
 
 impl Assets {
-    fn build(state: &State) -> Result<Self> {
-        let made;
-        let terrain = match (&state.options.relief, &state.terrain) {
-            (Some(relief), _) => {
-                made = relief.terrain()?;
-                &made
-            }
-            (None, Some(terrain)) => terrain,
-            (None, None) => return Ok(Self::default()),
-        };
-        let options = &state.options;
+    fn build(options: &GroundOptions, terrain: &Terrain) -> Self {
         let surfaces = seabed::Seabed::new(terrain, options).tiles();
         let material = |name: &str, texture, roughness| {
             let name = format!("{}_{name}", options.species);
@@ -119,7 +120,7 @@ impl Assets {
             };
             Tile { species, mesh: surface.mesh, material }
         });
-        Ok(Self { tiles: tiles.collect() })
+        Self { tiles: tiles.collect() }
     }
 }
 
@@ -153,15 +154,15 @@ impl Population for Ground {
     }
 
     fn settle(&mut self, growth: &mut Growth) -> Result<()> {
-        match &self.state.options.relief {
-            Some(relief) => growth.environment.terrain = Some(Arc::new(relief.terrain()?)),
-            None => self.state.terrain = growth.environment.terrain.as_deref().cloned(),
+        if self.state.options.relief.is_none() {
+            self.state.terrain = growth.environment.terrain.as_deref().cloned();
         }
-        if growth.environment.terrain.is_none() {
+        let Some(terrain) = self.state.terrain()? else {
             let expected = "a relief, or a world that has a terrain";
             return Err(Error::value("relief", "none", expected));
-        }
-        self.assets = Assets::build(&self.state)?;
+        };
+        self.assets = Assets::build(&self.state.options, &terrain);
+        growth.environment.terrain = Some(terrain);
         self.state.ids = growth.identities(self.assets.tiles.len())?;
         Ok(())
     }
@@ -204,10 +205,11 @@ impl Population for Ground {
 
     fn restore(&mut self, bytes: &[u8]) -> Result<()> {
         let state = read(bytes)?;
-        if (&state.options, &state.terrain) != (&self.state.options, &self.state.terrain) {
-            self.assets = Assets::build(&state)?;
+        if (&state.options, &state.terrain) == (&self.state.options, &self.state.terrain) {
+            self.state = state;
+        } else {
+            *self = Self::from_saved(bytes)?;
         }
-        self.state = state;
         Ok(())
     }
 }

@@ -132,8 +132,8 @@ fn stone(seed: u32, flatness: f32) -> Arc<Mesh> {
         let pit = 0.10 * (noise.cell(point * 2.6).nearest - 0.45).min(0.0);
         (point + direction * (crag + pit)) * stretch
     };
-    with_details(4, |detail| {
-        let mut mesh = icosphere(5u32.saturating_sub(detail).max(1));
+    with_details(3, |detail| {
+        let mut mesh = icosphere(4 - detail);
         mesh.positions.iter_mut().for_each(|point| *point = surface(*point));
         mesh.compute_normals();
         mesh.colors = stone_colors(&mesh, noise);

@@ -12,7 +12,7 @@ use super::forms::wrap_from_three_sides;
 /// Cells along the side of a tile; a power of two, so that coarser versions fit.
 const TILE: usize = 32;
 /// Depth in metres to which a surface dips under the other one where that one covers it.
-const DIP: f32 = 0.35;
+const DIP: f32 = 0.6;
 /// Samples to each side from which the direction is taken in which crags stand out.
 const REACH: f32 = 3.0;
 /// Length of the rock's picture, metres.
@@ -245,19 +245,19 @@ fn cover(terrain: &Terrain, index: usize, options: &GroundOptions) -> f32 {
     (cover + 1.6 * cover * (1.0 - cover) * ragged).clamp(0.0, 1.0)
 }
 
-/// How far the rock stands out from the heightfield here: ledges, hollows and knobs, square to the
-/// ground, so that walls overhang.
+/// How far the rock stands out from the heightfield here: ledges and knobs, square to the ground, so
+/// that walls overhang. Never inward, where the sand is.
 fn crag(point: Vec3, terrain: &Terrain) -> Vec3 {
     let reach = REACH * terrain.spacing;
     let height = |dx: f32, dz: f32| terrain.height(point.x + dx, point.z + dz);
     let slope_x = height(reach, 0.0) - height(-reach, 0.0);
     let slope_z = height(0.0, reach) - height(0.0, -reach);
     let outward = Vec3::new(-slope_x, 2.0 * reach, -slope_z).normalize();
-    let ledge = Noise::new(91).ridged(point * Vec3::new(0.55, 1.3, 0.55), 3) - 0.5;
-    let knob = 0.45 - Noise::new(92).cell(point * 2.1).nearest;
-    let bend =
-        Vec3::new(Noise::new(93).smooth(point * 1.7), 0.0, Noise::new(94).smooth(point * 1.7));
-    (outward + 0.5 * bend) * (0.42 * ledge + 0.22 * knob)
+    let ledge = Noise::new(91).ridged(point * Vec3::new(0.6, 1.4, 0.6), 3);
+    let knob = (0.75 - Noise::new(92).cell(point * 1.9).nearest).max(0.0);
+    let bend = Noise::new(93).smooth(point * 1.7);
+    let aside = Vec3::new(outward.z, 0.0, -outward.x) * (0.5 * bend);
+    (outward + aside) * (0.5 * ledge * ledge + 0.34 * knob - 0.1)
 }
 
 /// How far each sample lies below its surroundings, metres: where light is scarce.
@@ -289,8 +289,8 @@ fn sand_tone(point: Vec3, cover: f32, options: &GroundOptions) -> [f32; 3] {
 /// Color of rock: fields of different crusts, dark in hollows.
 fn rock_tone(point: Vec3, hollow: f32, options: &GroundOptions) -> [f32; 3] {
     let field = |seed: u32, scale: f32| Noise::new(seed).fractal(point * scale, 4);
-    let mut tone = math::mix(0.72, 0.98, 0.5 + field(110, 0.35));
-    tone *= (1.0 - 1.1 * hollow.max(-0.3)).clamp(0.35, 1.2);
+    let mut tone = math::mix(0.62, 0.92, 0.5 + field(110, 0.35));
+    tone *= (1.0 - 1.3 * hollow.max(-0.3)).clamp(0.3, 1.25);
     crusted(tone, &field, options.rock_color)
 }
 
@@ -300,20 +300,21 @@ pub(crate) fn crusted(
     field: &dyn Fn(u32, f32) -> f32,
     tint: [f32; 3],
 ) -> [f32; 3] {
-    let mut color = [0.90, 0.82, 0.70];
+    let mut color = [0.66, 0.56, 0.43];
     for (seed, scale, crust) in CRUSTS {
-        let share = 0.85 * math::smoothstep(0.04, 0.3, field(seed, scale));
+        let share = 0.9 * math::smoothstep(0.02, 0.22, field(seed, scale));
         color = [0, 1, 2].map(|channel| math::mix(color[channel], crust[channel], share));
     }
     [0, 1, 2].map(|channel| color[channel] * brightness * tint[channel])
 }
 
-/// Seed, features per metre and linear color of olive turf, pink and violet coralline algae, ochre
-/// sponge and pale sand in the pores.
-const CRUSTS: [(u32, f32, [f32; 3]); 5] = [
-    (111, 0.5, [0.56, 0.54, 0.28]),
-    (112, 0.9, [0.90, 0.52, 0.56]),
-    (113, 1.3, [0.92, 0.62, 0.28]),
-    (114, 1.1, [0.62, 0.46, 0.66]),
-    (115, 1.6, [1.05, 0.98, 0.86]),
+/// Seed, features per metre and linear color of olive turf, pink coralline algae, ochre sponge,
+/// violet crust, brown weed and bare, pale limestone.
+const CRUSTS: [(u32, f32, [f32; 3]); 6] = [
+    (111, 0.45, [0.40, 0.42, 0.16]),
+    (112, 0.9, [0.86, 0.36, 0.42]),
+    (113, 1.5, [0.92, 0.48, 0.12]),
+    (114, 1.1, [0.56, 0.33, 0.44]),
+    (116, 0.7, [0.34, 0.25, 0.13]),
+    (115, 2.0, [0.98, 0.88, 0.72]),
 ];

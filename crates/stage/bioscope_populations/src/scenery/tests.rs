@@ -83,7 +83,7 @@ fn the_ground_looks_like_the_terrain_it_is() {
     assert!(points.len() > 5000);
     let near = |point: &&Vec3| (point.y - terrain.height(point.x, point.z)).abs() < 0.45;
     let share = points.iter().filter(near).count() as f32 / points.len() as f32;
-    assert!(share > 0.9, "{share} of the vertices are near the terrain");
+    assert!(share > 0.85, "{share} of the vertices are near the terrain");
     let species = |name: &str| world.scene().batches.iter().any(|one| &*one.species == name);
     assert!(species("seabed_sand") && species("seabed_rock"));
 }

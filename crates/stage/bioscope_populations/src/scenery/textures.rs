@@ -106,7 +106,7 @@ fn paint_rock() -> Arc<Texture> {
             math::smoothstep(0.08, 0.30, pit.nearest) + if pit.random > 0.5 { 0.6 } else { 0.0 };
         let (noise, point) = at(32, 64);
         let grain = 0.88 + 0.3 * noise.fractal(point, 2);
-        let shade = (0.5 + 0.5 * depth.min(1.0)) * grain;
+        let shade = (0.66 + 0.34 * depth.min(1.0)) * grain;
         (color.map(|one| one * shade), 1.0)
     })
 }
@@ -150,12 +150,12 @@ pub(crate) fn polyps() -> Arc<Texture> {
 
 fn paint_polyps() -> Arc<Texture> {
     painted(256, |uv| {
-        let (noise, point) = repeating(51, 18)(uv);
+        let (noise, point) = repeating(51, 26)(uv);
         let cup = noise.cell(Vec3::new(point.x, 0.5, point.z));
         let rim = math::smoothstep(0.1, 0.42, cup.nearest)
             * (1.0 - 0.3 * math::smoothstep(0.5, 0.75, cup.nearest));
         let (noise, point) = repeating(52, 5)(uv);
-        gray((0.42 + 0.5 * rim) * (1.0 + 0.3 * noise.fractal(point, 4)))
+        gray((0.58 + 0.36 * rim) * (1.0 + 0.3 * noise.fractal(point, 4)))
     })
 }
 

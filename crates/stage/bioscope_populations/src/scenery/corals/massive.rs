@@ -12,11 +12,6 @@ pub(super) fn form_random(seed: u32) -> Random {
     Random::new(u64::from(seed), 1, 2, FORM)
 }
 
-/// Splits of a ball for a version.
-fn splits(detail: u32) -> u32 {
-    5u32.saturating_sub(detail).max(1)
-}
-
 /// A dome of brain coral: low, wide and a little dented; the grooves are in its texture.
 pub(super) fn brain(seed: u32, detail: u32) -> Mesh {
     let noise = Noise::new(seed);
@@ -33,7 +28,7 @@ pub(super) fn lobes(seed: u32, detail: u32) -> Mesh {
     let noise = Noise::new(seed);
     let mut random = form_random(seed);
     let (height, coarse) = (random.range(0.7, 1.15), random.range(1.7, 2.5));
-    dome(detail, 3.5, |direction| {
+    dome(detail, 5.0, |direction| {
         let cell = noise.cell(direction * coarse + 20.0);
         let bulge = (1.0 - cell.nearest * cell.nearest * 1.5).max(0.0) * (0.6 + 0.6 * cell.random);
         let radius = 0.34 * (1.0 + 0.75 * bulge + 0.15 * noise.fractal(direction * 2.0, 2));
@@ -44,7 +39,7 @@ pub(super) fn lobes(seed: u32, detail: u32) -> Mesh {
 /// A ball shaped by `surface` and sunk by a third, with texture coordinates spread from the top
 /// (equal areas) so that the picture repeats `repeats` times across.
 fn dome(detail: u32, repeats: f32, surface: impl Fn(Vec3) -> Vec3) -> Mesh {
-    let mut mesh = icosphere(splits(detail));
+    let mut mesh = icosphere(4u32.saturating_sub(detail));
     let directions = std::mem::take(&mut mesh.positions);
     for &direction in &directions {
         let point = surface(direction);

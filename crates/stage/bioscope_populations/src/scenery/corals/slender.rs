@@ -38,8 +38,8 @@ struct Branch {
 impl Branch {
     /// Adds itself and its forks.
     fn grow(&self, mesh: &mut Mesh, random: &mut Random, detail: u32) {
-        let sides = [6, 5, 4, 3, 3][detail.min(4) as usize];
-        let steps = [5, 4, 2, 1, 1][detail.min(4) as usize];
+        let sides = [5, 4, 3, 3, 3][detail.min(4) as usize];
+        let steps = [4, 3, 2, 1, 1][detail.min(4) as usize];
         let last = self.order >= 3;
         let bend = random.in_ball() * 0.25 + Vec3::Y * 0.3;
         let mut path = Vec::with_capacity(steps + 2);
