@@ -65,6 +65,7 @@ def board(width, height):
 
 
 RED = bio.Material("red", color=[0.8, 0.02, 0.02])
+GRAY = bio.Material("gray", color=[0.3, 0.3, 0.3], roughness=1.0)
 WHITE = bio.Material("white", color=[0.8, 0.8, 0.8], roughness=1.0)
 
 
@@ -82,8 +83,7 @@ def test_a_shadow_is_darker_than_the_ground_about_it():
     flat = np.array([[-20, 0, -20], [-20, 0, 20], [20, 0, 20], [20, 0, -20]], np.float32)
     ground = bio.Mesh(flat, np.array([[0, 1, 2], [0, 2, 3]], np.uint32))
     above = {"positions": [[0, 4, 0]]}
-    things = [("ground", ground, WHITE, {}), ("ball", ball(8, 16), WHITE, above)]
-    down = camera((0, 2.5, 0.01))
+    things = [("ground", ground, GRAY, {}), ("ball", ball(8, 16), WHITE, above)]
     sun = np.array(bio.World(seed=1).scene.sun["direction"])
     across = -sun[[0, 2]] / sun[1] * 4
     spot = _engine.Camera.looking_at(
@@ -94,7 +94,6 @@ def test_a_shadow_is_darker_than_the_ground_about_it():
     lit = picture(things[:1], spot)[12:20, 20:28].mean()
     assert shadow < 0.75 * lit
     assert shadow > 10, "the sky still reaches it"
-    assert down.position[1] == 2.5
 
 
 def test_water_takes_red_first_and_more_with_distance():
@@ -108,7 +107,6 @@ def test_water_takes_red_first_and_more_with_distance():
     near, far = means
     assert far[0] < 0.4 * near[0]
     assert far[0] < 0.3 * far[2]
-    assert near[0] > 0.5 * near[2]
 
 
 def test_deep_water_is_darker():

@@ -147,8 +147,7 @@ class Staging:
         values["vertex_normals"] = _flat(form.normals, np.float32)
         values["faces"] = _flat(form.triangles, np.uint32)
         if mapped:
-            # Mitsuba reads pictures from below.
-            values["vertex_texcoords"] = _flat(form.uvs * [1, -1] + [0, 1], np.float32)
+            values["vertex_texcoords"] = _flat(form.uvs, np.float32)
         values.update()
         return mesh
 
