@@ -30,7 +30,7 @@ def world(seed):
     world = bio.World(seed=seed, title="tank")
     world.environment.water(surface=0.0, current=bio.Current(speed=0.05))
     world.add(bio.FishSchool("fusilier", 24, center=(0, -2, 0)), "school")
-    world.cameras.fixed("main", position=(0, -2, 3.5), target=(0, -2, 0))
+    world.cameras.follow("school", species="fusilier", index=7, offset=(2.5, 0.5, 1.0))
     return world
 '''
 
