@@ -26,7 +26,7 @@ const OVERHANG = 0.1;
 const VERTEX = /* glsl */ `
 ${WAVES}
 uniform float uMoment;
-const float THROW = 0.55 / 5.0; // tiles per unit of slope: far enough for folds, the bright lines of the net
+const float THROW = 0.13; // tiles per unit of slope, as in the engine's waves.rs
 out vec2 vEntry;
 out vec2 vLanding;
 void main() {

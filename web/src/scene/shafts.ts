@@ -43,15 +43,17 @@ void main() {
   float len = min(min(away, REACH), direction.y > 1e-6 ? eyeDepth / direction.y : REACH);
   float start = fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
   float towards = max(0.0, dot(direction, uSunBelow));
-  float strength = uShafts * (0.018 + 0.06 * towards * towards * towards);
+  float strength = uShafts * (0.012 + 0.05 * towards * towards * towards);
   float stride = len / float(STEPS);
   vec3 sum = vec3(0.0);
   for (int i = 0; i < STEPS; i++) {
     float run = (float(i) + start) * stride;
     vec3 place = uEye + direction * run;
     float depth = max(0.0, depthOf(place.y));
-    float pattern = causticPattern(place, depth, 2.0);
-    sum += exp(-uExtinction * (run + depth / uSunBelow.y)) * (pattern * openAt(place) - 1.0);
+    float pattern = causticPattern(place, depth, 3.0);
+    float change = pattern * openAt(place) - 1.0;
+    float softened = change < 0.0 ? 0.35 * change : 1.3 * change; // light that went several ways fills dark beams
+    sum += exp(-uExtinction * (run + depth / uSunBelow.y)) * softened;
   }
   outColor = vec4(uSunColor * sum * (strength * stride), 1.0);
 }

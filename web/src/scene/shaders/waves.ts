@@ -7,6 +7,9 @@ const vec4 WAVES[9] = vec4[9](
   vec4(-3.0, 5.0, 0.05, 0.53), vec4(6.0, -3.0, 0.04, 0.61), vec4(4.0, 7.0, 0.03, 0.67)
 );
 
+/** Beyond this distance the surface looks flat, metres. */
+const float FLAT = 150.0;
+
 /** Slope of the surface along x and z at a place given in tiles. */
 vec2 tileSlope(vec2 at, float time) {
   vec2 slope = vec2(0.0);
@@ -20,7 +23,7 @@ vec2 tileSlope(vec2 at, float time) {
 
 /** Upward unit normal of the surface, calmer with distance. */
 vec3 surfaceTilt(vec2 at, float away, float tileSize, float time) {
-  float calm = 1.0 / (1.0 + away * 0.06);
+  float calm = 0.5 / (1.0 + away * 0.06) * max(0.0, 1.0 - away / FLAT);
   vec2 near = at / tileSize;
   vec2 slope = tileSlope(near, time) + tileSlope(vec2(near.y, -near.x) * 0.31, time);
   return normalize(vec3(-slope.x * calm, 1.0, -slope.y * calm));
