@@ -112,7 +112,7 @@ pub(super) fn table(seed: u32, detail: u32) -> Mesh {
     let stalk: Vec<Vec3> = (0..4)
         .map(|step| {
             let share = step as f32 / 3.0;
-            lean * share * share + Vec3::Y * (share * (height + 0.02) - 0.15 * (1.0 - share))
+            lean * share * share + Vec3::Y * (share * (height - 0.03) - 0.15 * (1.0 - share))
         })
         .collect();
     let tone = 0.4;
