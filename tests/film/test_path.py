@@ -267,3 +267,21 @@ def test_names_the_extra_if_it_is_missing(monkeypatch):
         with pytest.raises(bio.BioscopeError, match="use --renderer preview"):
             PathRenderer(SIZE)
     variant.cache_clear()
+
+
+def test_the_water_looks_as_in_the_preview():
+    flat = np.array([[-20, 0, -20], [-20, 0, 20], [20, 0, 20], [20, 0, -20]], np.float32)
+    ground = bio.Mesh(flat, np.array([[0, 1, 2], [0, 2, 3]], np.uint32))
+    world = bio.World(seed=1)
+    world.environment.water(surface=4.0)
+    world.environment.set(shafts=0.0)
+    world.add(Things([("ground", ground, GRAY, {"alive": False})]))
+    world.step()
+    for place, target in (((0, 2.5, 0.1), (0, 0, 0)), ((0, 1, 0), (0, 1.3, -1))):
+        view = _engine.Camera.looking_at(place, target, math.radians(60))
+        traced = PathRenderer(SIZE, 16, mitsuba_variant=SURE).render(world.scene, view)
+        preview = _engine.Rasterizer(picture=True).picture(world.scene, view, *SIZE)
+        one, other = traced.astype(float), preview.astype(float)
+        assert np.abs(one - other).mean() < 12
+        ripples = np.corrcoef(one[..., 1].ravel(), other[..., 1].ravel())[0, 1]
+        assert ripples > 0.8

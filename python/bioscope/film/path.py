@@ -23,6 +23,7 @@ import numpy as np
 from bioscope.errors import InvalidValueError
 from bioscope.film.focus import focus_distance
 from bioscope.film.light import Light, developed, water_from_above, window
+from bioscope.film.shafts import shafts
 from bioscope.film.smoothing import facing, smoothed
 from bioscope.film.staging import Staging
 from bioscope.film.variant import variant
@@ -268,7 +269,11 @@ class Water:
             lit = np.where((depth > 0)[..., None], under, lit)
         cover = seen.cover[..., None]
         thing = self._arriving(lit, directions, seen.distance, seen.cover)
-        return thing + self._background(directions) * (1.0 - cover)
+        whole = thing + self._background(directions) * (1.0 - cover)
+        if self._waves is None or self._depth <= 0 or light.shafts <= 0:
+            return whole
+        ends = np.where(seen.cover > 0.5, seen.distance, np.inf)
+        return np.maximum(whole + shafts(light, self._waves, self._eye, directions, ends), 0.0)
 
     def _arriving(
         self, radiance: Floats, directions: Floats, distance: Floats, cover: Floats

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from bioscope.film.surfaces import COLOR, SHADE, Surfaces
+from bioscope.film.surfaces import COLOR, LARGEST, Surfaces, vertex_factor
 from bioscope.geometry.balls import Balls
 from bioscope.geometry.palette import Palette
 from bioscope.geometry.skinning import bent
@@ -141,7 +141,9 @@ class Staging:
             props=properties,
         )
         if colored:
-            _color(mesh, form.colors, np.array(material.color) * np.array(tint))
+            factor = vertex_factor(material, tint, mapped=mapped)
+            colors = np.clip(form.colors * factor, 0.0, LARGEST)
+            mesh.add_attribute(COLOR, 3, _flat(colors, np.float32))
         values = mitsuba.traverse(mesh)
         values["vertex_positions"] = _flat(form.positions, np.float32)
         values["vertex_normals"] = _flat(form.normals, np.float32)
@@ -150,12 +152,6 @@ class Staging:
             values["vertex_texcoords"] = _flat(form.uvs, np.float32)
         values.update()
         return mesh
-
-
-def _color(mesh: Any, colors: Floats, tint: Floats) -> None:
-    """Give a mesh its vertex colors, in the tint, and their means."""
-    mesh.add_attribute(COLOR, 3, _flat(np.clip(colors * tint, 0.0, 0.96), np.float32))
-    mesh.add_attribute(SHADE, 1, _flat(np.clip(colors.mean(axis=1), 0.0, 1.0), np.float32))
 
 
 def _flat(values: NDArray[Any], dtype: type) -> NDArray[Any]:

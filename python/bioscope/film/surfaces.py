@@ -7,7 +7,7 @@
 | light comes through | `principledthin` |
 | cut out, or partly opaque | `mask` about it |
 | bubbles | `dielectric`, gas in water |
-| vertex colors | a mesh attribute; where there is a picture too, their mean darkens it |
+| vertex colors | a mesh attribute; where there is a picture too, its brightness darkens them |
 """
 
 from __future__ import annotations
@@ -28,12 +28,12 @@ if TYPE_CHECKING:
     from bioscope.geometry.balls import Grain
     from bioscope.geometry.palette import Color
 
-COLOR, SHADE = "vertex_color", "vertex_shade"
-"""Names of the mesh attributes: vertex colors (3 numbers), and their means (1 number)."""
+COLOR = "vertex_color"
+"""Name of the mesh attribute that holds vertex colors."""
 
 _WATER, _GAS = 1.34, 1.0
 _MATT = 0.9
-_LARGEST = 0.96
+LARGEST = 0.96
 """No surface throws back more than this share of light."""
 
 
@@ -59,19 +59,22 @@ class Surfaces:
     ) -> dict[str, Any]:
         if getattr(material, "glassy", False):
             return {"type": "dielectric", "int_ior": _GAS, "ext_ior": _WATER}
-        color = [one * two for one, two in zip(material.color, tint, strict=True)]
         picture = material.texture if mapped else None
-        if picture is not None:
-            pixels = linear(picture[..., :3]) * np.array(color, np.float32)
-            surface = self._finish(material, self._bitmap(np.minimum(pixels, _LARGEST)))
-            if colored:
-                dark = {"type": "diffuse", "reflectance": _rgb([0, 0, 0])}
-                weight = {"type": "mesh_attribute", "name": SHADE}
-                surface = {"type": "blendbsdf", "weight": weight, "dark": dark, "full": surface}
-        elif colored:
+        if colored:
             surface = self._finish(material, {"type": "mesh_attribute", "name": COLOR})
+            if picture is not None:
+                bright = brightness(picture)
+                dark = {"type": "diffuse", "reflectance": _rgb([0, 0, 0])}
+                weight = self._bitmap((bright / bright.max())[..., None])
+                surface = {"type": "blendbsdf", "weight": weight, "dark": dark, "full": surface}
         else:
-            surface = self._finish(material, _rgb([min(one, _LARGEST) for one in color]))
+            color = np.array(material.color, np.float32) * np.array(tint, np.float32)
+            if picture is None:
+                paint = _rgb(np.minimum(color, LARGEST).tolist())
+            else:
+                pixels = linear(picture[..., :3]) * color
+                paint = self._bitmap(np.minimum(pixels, LARGEST))
+            surface = self._finish(material, paint)
         if picture is not None and material.cutout:
             solid = (picture[..., 3:4] >= 128).astype(np.float32)
             return {"type": "mask", "opacity": self._bitmap(solid), "surface": surface}
@@ -96,6 +99,24 @@ class Surfaces:
     def _bitmap(self, pixels: NDArray[np.float32]) -> dict[str, Any]:
         bitmap = self._mitsuba.Bitmap(np.ascontiguousarray(pixels, np.float32))
         return {"type": "bitmap", "bitmap": bitmap, "raw": True}
+
+
+def vertex_factor(
+    material: Material | Grain, tint: Color, *, mapped: bool
+) -> NDArray[np.floating]:
+    """Return the color by which vertex colors are multiplied before a picture darkens them."""
+    color = np.array(material.color) * np.array(tint)
+    if not mapped or material.texture is None:
+        return color
+    pixels = linear(material.texture[..., :3])
+    bright = pixels.mean(axis=-1)
+    hue = pixels.mean(axis=(0, 1)) / max(float(bright.mean()), 1e-6)
+    return color * hue * bright.max()
+
+
+def brightness(picture: NDArray[np.uint8]) -> NDArray[np.float32]:
+    """Return the linear brightness (height, width) of a picture, not all 0."""
+    return np.maximum(linear(picture[..., :3]).mean(axis=-1), 1e-6)
 
 
 def _rgb(color: list[float]) -> dict[str, Any]:

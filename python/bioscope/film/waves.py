@@ -31,7 +31,10 @@ _WAVES = np.array(
 )
 """Waves per tile along x and z, slope amplitude, turns per second."""
 _CELLS = 5.0
-_FOCUS = 0.16
+_FOCUS = 0.13
+"""How far sunlight is thrown, in tiles per unit of slope."""
+_FLAT = 150.0
+"""Beyond this distance the surface looks flat, metres."""
 _SIZE = 256
 
 
@@ -50,7 +53,7 @@ class Waves:
 
     def tilt(self, points: Floats, distance: Floats) -> Floats:
         """Return the upward normals of the surface at points (…, 3) of it, calmer with distance."""
-        calm = 0.5 / (1.0 + distance * 0.06)
+        calm = 0.5 / (1.0 + distance * 0.06) * np.maximum(1.0 - distance / _FLAT, 0.0)
         x, z = points[..., 0] * self._frequency, points[..., 2] * self._frequency
         slope = _read(self._slopes, x, z) + _read(self._slopes, z * 0.31, -x * 0.31)
         slope = slope * calm[..., None]
@@ -94,7 +97,7 @@ def _slopes(time: float) -> Floats:
 def _gathered(slopes: Floats) -> Floats:
     """Sunlight thrown by the slopes, gathered on the same grid; mean 1."""
     light = np.zeros(_SIZE * _SIZE)
-    throw = _FOCUS * _SIZE / _CELLS
+    throw = _FOCUS * _SIZE
     right, below = np.roll(slopes, -1, axis=1), np.roll(slopes, -1, axis=0)
     rows, columns = np.mgrid[0:_SIZE, 0:_SIZE]
     for u, v in ((0.0, 0.0), (0.5, 0.0), (0.0, 0.5), (0.5, 0.5)):

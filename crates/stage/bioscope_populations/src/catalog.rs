@@ -21,6 +21,9 @@ pub const KINDS: [&str; 9] = [
     "roaming_fish", "rocks",
 ];
 
+/// Most fishes with minds of their own in one population.
+const MOST_SINGLE_FISHES: usize = 20_000;
+
 /// A population of this kind with these options (a JSON object with the field names of its options
 /// struct) and parameters.
 pub fn population(
@@ -110,6 +113,10 @@ pub fn fish_with_minds(
     kinds: Arc<Kinds>,
 ) -> Result<Animals> {
     let asked: Roaming = read("fish", options)?;
+    if asked.count > MOST_SINGLE_FISHES {
+        let expected = format!("up to {MOST_SINGLE_FISHES}");
+        return Err(Error::value("count", asked.count, expected));
+    }
     let species = asked.species.get()?;
     let look = fish::look(&species);
     let animals = (0..asked.count).map(|_| {

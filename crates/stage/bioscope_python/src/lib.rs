@@ -8,6 +8,7 @@ mod arrays;
 mod camera;
 mod error;
 mod field;
+mod flock;
 mod lsystem;
 mod material;
 mod mesh;
@@ -36,6 +37,8 @@ mod _engine {
     use super::camera::Camera;
     #[pymodule_export]
     use super::field::{Field, current};
+    #[pymodule_export]
+    use super::flock::Flock;
     #[pymodule_export]
     use super::lsystem::{Interpretation, LSystem, ModuleString, interpret};
     #[pymodule_export]

@@ -57,7 +57,8 @@ def _settle_animals(reef: bio.World) -> None:
     reef.add(bio.RoamingFish("grey_reef_shark", 1, center=(-4.0, -3.6, -4.5), home=(0.0, -3.8, -1.5)))
     box = {"low": (-9.0, -9.0, -8.0), "high": (9.0, -0.2, 10.0)}
     reef.add(bio.Plankton(1800, **box))
-    reef.add(bio.Bubbles(5, area=Rectangle((-4.0, -4.0), (5.0, 3.0))))
+    vents = Rectangle((-4.0, -4.0), (5.0, 3.0))
+    reef.add(bio.Bubbles(6, area=vents, rate=1.3, cluster=16.0, radius=0.006))
 
 
 def _place_cameras(reef: bio.World) -> None:

@@ -255,7 +255,7 @@ impl Population for FishSchool {
     fn settle(&mut self, growth: &mut Growth) -> Result<()> {
         let FishSchoolOptions { count, center, half, ref species, .. } = self.options;
         let variation = species.variation;
-        self.flock = Flock::new(self.options.flock.clone(), growth.moment.seed)?;
+        self.flock = Flock::new(self.flock.parameters.clone(), growth.moment.seed)?;
         let (length, cruise) = (self.body_length(), self.flock.parameters.cruise_speed);
         for id in growth.identities(count)? {
             let mut random = growth.moment.random(id, BIRTH);
