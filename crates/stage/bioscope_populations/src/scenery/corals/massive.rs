@@ -112,11 +112,11 @@ pub(super) fn table(seed: u32, detail: u32) -> Mesh {
     let stalk: Vec<Vec3> = (0..4)
         .map(|step| {
             let share = step as f32 / 3.0;
-            lean * share * share + Vec3::Y * (share * (height - 0.03) - 0.15 * (1.0 - share))
+            lean * share * share + Vec3::Y * (share * (height - 0.02) - 0.15 * (1.0 - share))
         })
         .collect();
     let tone = 0.4;
-    append_toned(&mut mesh, &tube(&stalk, &[0.2, 0.11, 0.1, 0.24], 8, 0.3), [tone; 3]);
+    append_toned(&mut mesh, &tube(&stalk, &[0.2, 0.11, 0.1, 0.12], 8, 0.3), [tone; 3]);
     mesh
 }
 
