@@ -51,7 +51,7 @@ class Field:
 
 
 class Current:
-    """Water that flows one way, is rocked by a swell and curls in eddies (free of divergence).
+    """Water that flows one way, is rocked by a swell and curls in eddies.
 
     Parameters
     ----------

@@ -19,7 +19,8 @@ parameters! {
     }
 }
 
-/// Water that flows one way, is rocked by a swell and curls in eddies; free of divergence.
+/// Water that flows one way, is rocked by a swell that travels with it, and curls in eddies that have no
+/// divergence.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Current {
     direction: Vec3,
