@@ -30,6 +30,7 @@ export class FrameLoop {
   private lastReconnect = 0;
   private readonly unseen: number[] = [];
   private fine = false;
+  private renewed = false;
   private wasBroken = false;
   private visible = false;
   private size = { width: 1, height: 1 };
@@ -40,6 +41,11 @@ export class FrameLoop {
     this.observer = new ResizeObserver(() => this.resize());
     session.on("hello", () => this.queue.clear());
     session.on("layout", (layout) => {
+      if (this.renewed) {
+        this.queue.clear();
+        viewer.stage.outdate();
+        this.renewed = false;
+      }
       this.layout = layout;
       viewer.stage.assets.settle();
     });
@@ -77,13 +83,11 @@ export class FrameLoop {
     this.viewer.stage.render(this.viewer.cameras.camera);
   }
 
-  /** Forgets everything: a new connection brings all anew. */
+  /** A new connection brings everything anew; until it has, the last picture stays. */
   begin(): void {
-    this.queue.clear();
     this.layout = null;
     this.unseen.length = 0;
-    this.viewer.stage.clear();
-    this.frame = null;
+    this.renewed = true;
   }
 
   private take(frame: Frame): void {

@@ -45,6 +45,7 @@ export class Stage {
   private readonly frustum = new Frustum();
   private readonly matrix = new Matrix4();
   private batchNumber = 0;
+  private outdated = false;
   private before: { time: number } | null = null;
   private current: Frame | null = null;
 
@@ -57,6 +58,11 @@ export class Stage {
     this.shared.uCausticTile.value = this.caustics.texture;
     this.picture = createPicture(1, 1, this.quality);
     this.shadows.resize(renderer, this.quality.shadowMap);
+  }
+
+  /** What is shown is of another connection: the next layout replaces all of it, whatever its keys. */
+  outdate(): void {
+    this.outdated = true;
   }
 
   /** Takes an asset; says whether the message was one. */
@@ -77,6 +83,7 @@ export class Stage {
     applyLight(this.shared, layout);
     this.setBatches(layout);
     this.setPoints(layout);
+    this.outdated = false;
     this.assets.keepFor([layout, ...coming]);
     this.ground.measure(this.batches.values());
   }
@@ -145,8 +152,7 @@ export class Stage {
     return null;
   }
 
-  /** Forgets everything: another session with the world begins. */
-  clear(): void {
+  private clear(): void {
     for (const name of [...this.batches.keys()]) this.removeBatch(name);
     for (const name of [...this.points.keys()]) this.removePoints(name);
     this.assets.clear();
@@ -197,12 +203,12 @@ export class Stage {
     for (const name of [...this.batches.keys()]) if (!names.has(name)) this.removeBatch(name);
     for (const one of layout.batches) {
       const former = this.batches.get(one.name);
-      if (former?.accepts(one)) continue;
+      if (!this.outdated && former?.accepts(one)) continue;
       const asset = this.assets.mesh(one.mesh);
       if (!asset) throw new Error(`the mesh of ${one.name} is missing`);
       this.batchNumber = (this.batchNumber % 4095) + 1;
       const batch = new Batch(this.batchNumber, one, asset, this.assets, this.shared);
-      if (former) batch.carry(former);
+      if (former && !this.outdated) batch.carry(former);
       for (const level of batch.levels) this.scene.add(level.mesh);
       this.shadows.scene.add(batch.shadow.mesh);
       if (former) this.removeBatch(one.name);
