@@ -7,6 +7,7 @@ import time
 import traceback
 from collections import deque
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from bioscope import _engine, worlds
@@ -97,6 +98,7 @@ class Session:
     def _begin(self) -> None:
         self.timeline = Timeline(self.world)
         self._encoder = _engine.Encoder()
+        self._initial = {(row.owner, row.name): row.value for row in self.world.parameters()}
         self._newest_event = self.world.tick
         self.events.clear()
         self.world.drain_events()
@@ -118,7 +120,7 @@ class Session:
         return encode(
             "hello",
             version=_engine.VERSION,
-            world=self.name,
+            world=Path(self.name).stem,
             title=self.world.title,
             seed=self.world.seed,
             dt=self.world.dt,
@@ -132,6 +134,7 @@ class Session:
         owners: dict[str, list[dict[str, Any]]] = {}
         for row in self.world.parameters():
             one = {name: getattr(row, name) for name in row.__slots__ if name != "owner"}
+            one["initial"] = self._initial.get((row.owner, row.name), row.value)
             owners.setdefault(row.owner, []).append(one)
         table = [{"name": name, "parameters": rows} for name, rows in owners.items()]
         return encode("parameters", owners=table)
