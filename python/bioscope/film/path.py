@@ -83,6 +83,7 @@ class PathRenderer:
         self._samples = max(1, samples // self._parts**2)
         self._depth_of_field = depth_of_field
         self._staging = Staging(mitsuba)
+        self._sky_peak = 0.0
 
     def render(self, scene: Scene, camera: Camera) -> NDArray[np.uint8]:
         """Return the picture: (height, width, 3) sRGB bytes.
@@ -119,14 +120,15 @@ class PathRenderer:
         quarter, half = max(1, self._samples // 4), max(1, self._samples // 2)
         distance = self._pass(staged, _DISTANCE, quarter, scene.tick)
         self._choose(values, "lamp", light)
-        colors = self._pass(staged, _DIRECT, 1, scene.tick)
+        colors = self._pass(staged, _DIRECT, quarter, scene.tick)
         self._choose(values, "sun", light)
         direct = self._pass(staged, _DIRECT, quarter, scene.tick)
         bounced = self._pass(staged, _BOUNCING, quarter, scene.tick)
         self._choose(values, "sky", light)
         sky = self._pass(staged, _BOUNCING, half, scene.tick)
         eye = np.array(camera.position, np.float32)
-        return Seen(eye, directions, (distance, colors, direct, bounced, sky))
+        limits = float(light.sun_color.max()) / math.pi, self._sky_peak
+        return Seen(eye, directions, (distance, colors, direct, bounced, sky), limits)
 
     def _pass(self, staged: Any, integrator: dict[str, Any], samples: int, seed: int) -> Floats:
         loaded = self._mitsuba.load_dict(integrator)
@@ -158,6 +160,7 @@ class PathRenderer:
         rows = np.pi * (np.arange(_SKY_ROWS) + 0.5) / _SKY_ROWS
         rise = np.stack([np.sin(rows), np.cos(rows), 0 * rows], axis=1).astype(np.float32)
         radiance = light.ambient_below(rise) if under else light.sky(rise)
+        self._sky_peak = float(radiance.max())
         pixels = np.repeat(radiance[:, None], 2 * _SKY_ROWS, axis=1).astype(np.float32)
         return {"type": "envmap", "bitmap": self._mitsuba.Bitmap(np.ascontiguousarray(pixels))}
 
@@ -231,7 +234,14 @@ def _axes(camera: Camera) -> NDArray[np.float64]:
 class Seen:
     """What the renderings say of each part of a pixel."""
 
-    def __init__(self, eye: Floats, directions: Floats, passes: tuple[Floats, ...]) -> None:
+    def __init__(
+        self,
+        eye: Floats,
+        directions: Floats,
+        passes: tuple[Floats, ...],
+        limits: tuple[float, float],
+    ) -> None:
+        # `limits`: bounced and sky light that no white surface can exceed; more is noise.
         distance, lamp, direct, bounced, sky = passes
         self.cover = np.clip(direct[..., 3], 0.0, 1.0)
         """Share of the part that sees any thing."""
@@ -241,8 +251,10 @@ class Seen:
         slant = np.abs(np.sum(normals * directions, axis=-1))
         lit = self.distance**2 / np.maximum(slant, 0.15)
         color = np.clip(lamp[..., :3] * lit[..., None], 0.02, 1.0)
-        soft = [bounced[..., :3] - direct[..., :3], sky[..., :3]]
-        soft = [smoothed(one / color, normals, self.distance, _SMOOTHING) * color for one in soft]
+        soft = []
+        for light, most in zip((bounced[..., :3] - direct[..., :3], sky[..., :3]), limits, strict=True):
+            even = np.clip(light / color, -most, most)
+            soft.append(smoothed(even, normals, self.distance, _SMOOTHING) * color)
         self.sun = direct[..., :3]
         """Sunlight thrown back at once, as if there were no water."""
         self.rest = np.maximum(soft[0], 0.0) + soft[1]

@@ -33,6 +33,8 @@ COLOR = "vertex_color"
 
 _WATER, _GAS = 1.34, 1.0
 _MATT = 0.9
+_SOLID = 0.15
+"""Translucency up to which a surface is solid: thin ones have no highlight."""
 LARGEST = 0.96
 """No surface throws back more than this share of light."""
 
@@ -86,7 +88,7 @@ class Surfaces:
     def _finish(self, material: Material | Grain, color: dict[str, Any]) -> dict[str, Any]:
         roughness = max(float(material.roughness), 0.08)
         shine = {"roughness": roughness, "eta": max(refraction(material.specular), 1.01)}
-        if material.translucency > 0.0:
+        if material.translucency > _SOLID:
             through = float(material.translucency)
             passed = min(2.0, 2.0 * through / (1.0 + 0.5 * through))
             return {"type": "principledthin", "base_color": color, "diff_trans": passed, **shine}
