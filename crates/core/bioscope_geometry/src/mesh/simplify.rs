@@ -12,6 +12,10 @@ use super::{Mesh, Skin};
 /// How much more the outline of an open sheet counts than its surface.
 const OUTLINE: f64 = 4.0;
 
+/// A vertex may take the place of another at most so far away in the texture's width or height, unless
+/// they share a triangle that goes.
+const STRETCH: f32 = 0.35;
+
 /// A mesh while it loses triangles. Vertices at one place (seams) count as one node.
 pub(super) struct Simplifier<'a> {
     mesh: &'a Mesh,
@@ -237,30 +241,68 @@ impl<'a> Simplifier<'a> {
             let normal = |[a, b, c]: [DVec3; 3]| (b - a).cross(c - a);
             let before = normal(nodes.map(place));
             let after = normal(nodes.map(|node| place(if node == from { to } else { node })));
-            if before.dot(after) <= 0.25 * before.length() * after.length() {
+            let turned = before.dot(after) <= 0.25 * before.length() * after.length();
+            let outward = self.outward(triangle);
+            if turned || (after.dot(outward) <= 0.0 && before.dot(outward) > 0.0) {
                 return false;
             }
+        }
+        if !self.keeps_seams(from, to) {
+            return false;
         }
         let along_outline = !self.outline[from as usize] || shared == 1;
         shared > 0 && common <= shared && along_outline
     }
 
-    fn collapse(&mut self, from: u32, to: u32) {
-        let moved = std::mem::take(&mut self.touching[from as usize]);
+    /// Sum of the normals of a triangle's vertices.
+    fn outward(&self, triangle: u32) -> DVec3 {
+        let normal =
+            |corner: u32| self.mesh.normals.get(corner as usize).copied().unwrap_or_default();
+        let corners = self.triangles[triangle as usize].into_iter().flatten();
+        corners.map(normal).sum::<Vec3>().as_dvec3()
+    }
+
+    /// Vertices of two nodes that triangles have in common, with those triangles.
+    fn pairs(&self, from: u32, to: u32) -> Vec<(u32, u32, u32)> {
         let mut pairs = Vec::new();
-        for &triangle in &moved {
-            let (Some(corners), Some(nodes)) =
-                (self.triangles[triangle as usize], self.nodes_of(triangle))
-            else {
-                continue;
-            };
-            let corner_at = |node: u32| (0..3).find(|&corner| nodes[corner] == node);
+        for &triangle in &self.touching[from as usize] {
+            let Some(corners) = self.triangles[triangle as usize] else { continue };
+            let corner_at =
+                |node: u32| corners.into_iter().find(|&corner| self.nodes[corner as usize] == node);
             if let (Some(old), Some(new)) = (corner_at(from), corner_at(to)) {
-                pairs.push((corners[old], corners[new]));
-                self.triangles[triangle as usize] = None;
-                self.count -= 1;
+                pairs.push((old, new, triangle));
             }
         }
+        pairs
+    }
+
+    /// Whether no triangle would be stretched over a part of the texture that it did not show.
+    fn keeps_seams(&self, from: u32, to: u32) -> bool {
+        if self.mesh.uvs.is_empty() {
+            return true;
+        }
+        let pairs = self.pairs(from, to);
+        let corners = self.touching[from as usize]
+            .iter()
+            .filter_map(|&triangle| self.triangles[triangle as usize]);
+        let kept = |corner: u32| {
+            if pairs.iter().any(|&(old, ..)| old == corner) {
+                return true;
+            }
+            let [u, v] = self.mesh.uvs[corner as usize];
+            let [s, t] = self.mesh.uvs[self.counterpart(corner, &pairs) as usize];
+            (u - s).abs() < STRETCH && (v - t).abs() < STRETCH
+        };
+        corners.flatten().filter(|&corner| self.nodes[corner as usize] == from).all(kept)
+    }
+
+    fn collapse(&mut self, from: u32, to: u32) {
+        let pairs = self.pairs(from, to);
+        for &(_, _, triangle) in &pairs {
+            self.triangles[triangle as usize] = None;
+            self.count -= 1;
+        }
+        let moved = std::mem::take(&mut self.touching[from as usize]);
         for triangle in moved {
             let Some(mut corners) = self.triangles[triangle as usize] else { continue };
             for corner in &mut corners {
@@ -285,8 +327,8 @@ impl<'a> Simplifier<'a> {
     }
 
     /// The vertex at the new node that continues a vertex of the old one on its side of a seam.
-    fn counterpart(&self, vertex: u32, pairs: &[(u32, u32)]) -> u32 {
-        if let Some(&(_, new)) = pairs.iter().find(|&&(old, _)| old == vertex) {
+    fn counterpart(&self, vertex: u32, pairs: &[(u32, u32, u32)]) -> u32 {
+        if let Some(&(_, new, _)) = pairs.iter().find(|&&(old, ..)| old == vertex) {
             return new;
         }
         let uv = |vertex: u32| self.mesh.uvs.get(vertex as usize).copied().unwrap_or_default();
@@ -296,7 +338,7 @@ impl<'a> Simplifier<'a> {
             let ([u, v], [s, t]) = (uv(vertex), uv(other));
             (u - s).abs() + (v - t).abs() + 0.1 * (normal(vertex) - normal(other)).length()
         };
-        let news = pairs.iter().map(|&(_, new)| new);
+        let news = pairs.iter().map(|&(_, new, _)| new);
         news.min_by(|&a, &b| distance(a).total_cmp(&distance(b))).unwrap_or(vertex)
     }
 

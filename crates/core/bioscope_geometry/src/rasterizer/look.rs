@@ -271,46 +271,50 @@ impl Look<'_> {
     fn color_smoothly(&self, strip: &mut Strip, sheet: &Sheet) {
         let (owners, nearness, stride) = (sheet.owners(), sheet.nearness(), sheet.stride());
         for row in strip.rows[0]..strip.rows[1] {
+            let first = (row - strip.rows[0]) * 2 * stride;
             for column in 0..strip.width {
-                let first = (row - strip.rows[0]) * 2 * stride + column * 2;
-                let places = [first, first + 1, first + stride, first + stride + 1];
-                let mut groups = [(0, 0u32); 4];
-                let mut count = 0;
-                for place in places {
-                    let same = |&&mut (other, _): &&mut (usize, u32)| {
-                        self.alike(
-                            [owners[place], owners[other]],
-                            [nearness[place], nearness[other]],
-                        )
-                    };
-                    match groups[..count].iter_mut().find(same) {
-                        Some(group) => group.1 += 1,
-                        None => {
-                            groups[count] = (place, 1);
-                            count += 1;
-                        }
-                    }
-                }
-                let mut color = Rgb::ZERO;
-                let mut best = (0, f32::INFINITY, 0);
-                for &(place, share) in &groups[..count] {
-                    let inside = place - first;
-                    let (aside, down) = (inside % stride, inside / stride);
-                    let Some(ray) = self.lens.ray(column * 2 + aside, row * 2 + down) else {
-                        continue;
-                    };
-                    let (radiance, depth, identity) =
-                        self.sample(owners[place], nearness[place], ray);
-                    color += radiance * (share as f32 * 0.25);
-                    if share > best.0 {
-                        best = (share, depth, identity);
-                    }
-                }
+                let four = [0, 1, stride, stride + 1].map(|step| first + column * 2 + step);
+                let owners = four.map(|place| owners[place]);
+                let nearness = four.map(|place| nearness[place]);
                 let index = (row - strip.rows[0]) * strip.width + column;
+                let (color, depth, identity) = self.blend([column, row], owners, nearness);
                 strip.color[index] = channels(color);
-                (strip.depth[index], strip.identity[index]) = (best.1, best.2);
+                strip.depth[index] = depth;
+                strip.identity[index] = identity;
             }
         }
+    }
+
+    /// Mean color of a pixel's four samples; depth and identity of the thing that most of them see.
+    #[inline(always)]
+    fn blend(&self, pixel: [usize; 2], owners: [u32; 4], nearness: [f32; 4]) -> (Rgb, f32, Id) {
+        let mut shares = [0.25f32; 4];
+        for sample in 1..4 {
+            let same = |other: &usize| {
+                let (owners, nearness) =
+                    ([owners[sample], owners[*other]], [nearness[sample], nearness[*other]]);
+                shares[*other] > 0.0 && self.alike(owners, nearness)
+            };
+            if let Some(other) = (0..sample).find(same) {
+                shares[other] += 0.25;
+                shares[sample] = 0.0;
+            }
+        }
+        let mut color = Rgb::ZERO;
+        let mut best = (0.0, f32::INFINITY, 0);
+        for sample in 0..4 {
+            if shares[sample] == 0.0 {
+                continue;
+            }
+            let place = [pixel[0] * 2 + sample % 2, pixel[1] * 2 + sample / 2];
+            let Some(ray) = self.lens.ray(place[0], place[1]) else { continue };
+            let (radiance, depth, identity) = self.sample(owners[sample], nearness[sample], ray);
+            color += radiance * shares[sample];
+            if shares[sample] > best.0 {
+                best = (shares[sample], depth, identity);
+            }
+        }
+        (color, best.1, best.2)
     }
 
     /// Whether two samples see the same thing at about the same distance.

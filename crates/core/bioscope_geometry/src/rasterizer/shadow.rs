@@ -98,6 +98,18 @@ impl Shadow {
         Some(Self { frame, heights })
     }
 
+    /// 1 where the sun reaches a point in open space, else 0.
+    #[inline(always)]
+    pub fn reached(&self, point: Vec3) -> f32 {
+        let place = self.frame.place(point);
+        let inside = place.x >= 0.0 && place.y >= 0.0;
+        if !inside || place.x >= SIZE as f32 || place.y >= SIZE as f32 {
+            return 1.0;
+        }
+        let blocker = self.heights[place.y as usize * SIZE + place.x as usize];
+        if blocker <= place.z { 1.0 } else { 0.0 }
+    }
+
     /// Share of the sun's disc seen from a surface point with this normal (on the sun's side), softened
     /// over a few texels; 1 outside the map.
     #[inline(always)]

@@ -14,7 +14,7 @@ use super::view::View;
 const CELL: usize = 4;
 
 /// Steps along a ray.
-const STEPS: usize = 14;
+const STEPS: usize = 12;
 
 /// Beams are followed this far, metres.
 const REACH: f32 = 16.0;
@@ -42,10 +42,18 @@ pub(crate) fn add_shafts(view: &mut View, shader: &Shader, lens: &Lens, samples:
         .collect();
     let cells = smoothed(&smoothed(&cells, bounds, 1), bounds, bounds[0]);
     let width = view.width;
-    view.color.par_chunks_mut(width).enumerate().for_each(|(row, line)| {
-        for (column, color) in line.iter_mut().enumerate() {
-            let beam = between(&cells, bounds[0], column, row);
-            *color = channels((rgb(*color) + beam).max(Rgb::ZERO));
+    view.color.par_chunks_mut(width).enumerate().for_each_init(Vec::new, |beams, (row, line)| {
+        let (top, v) = (row / CELL * bounds[0], (row % CELL) as f32 / CELL as f32);
+        let [near, far] = [top, top + bounds[0]].map(|first| &cells[first..first + bounds[0]]);
+        beams.clear();
+        beams.extend(near.iter().zip(far).map(|(&near, &far)| near.lerp(far, v)));
+        for (pixels, ends) in line.chunks_mut(CELL).zip(beams.windows(2)) {
+            let step = (ends[1] - ends[0]) * (1.0 / CELL as f32);
+            let mut beam: Rgb = ends[0];
+            for color in pixels {
+                *color = channels((rgb(*color) + beam).max(Rgb::ZERO));
+                beam += step;
+            }
         }
     });
 }
@@ -65,12 +73,12 @@ fn march(shader: &Shader, direction: Vec3, distance: f32, start: f32) -> Rgb {
         let run = (number as f32 + start) * step;
         let point = eye + direction * run;
         let depth = light.depth(point.y).max(0.0);
-        let pattern = waves.pattern(light, point, depth, 8);
-        let lit = shadow.as_ref().map_or(1.0, |shadow| shadow.lit(point, Vec3::ZERO));
+        let pattern = waves.pattern(light, point, depth, 8 + (run * 1.5) as usize);
+        let lit = shadow.as_ref().map_or(1.0, |shadow| shadow.reached(point));
         let path = run + depth / light.sun_below.y;
         let change = pattern * lit - 1.0;
         // Light that went several ways fills the dark beams.
-        let softened = if change < 0.0 { 0.35 * change } else { 1.3 * change };
+        let softened = if change < 0.0 { 0.4 * change } else { 0.8 * change };
         sum += exp_rgb(light.extinction * -path) * softened;
     }
     light.sun_color * sum * (strength * step)
@@ -87,15 +95,4 @@ fn smoothed(cells: &[Rgb], bounds: [usize; 2], step: usize) -> Vec<Rgb> {
         near.map(|place| cells[line + place * step]).sum::<Rgb>() * 0.25
     };
     (0..cells.len()).map(mean).collect()
-}
-
-/// Value between the four cells round a pixel.
-#[inline(always)]
-fn between(cells: &[Rgb], width: usize, column: usize, row: usize) -> Rgb {
-    let (left, u) = (column / CELL, (column % CELL) as f32 / CELL as f32);
-    let (top, v) = (row / CELL, (row % CELL) as f32 / CELL as f32);
-    let first = top * width + left;
-    let near = cells[first].lerp(cells[first + 1], u);
-    let far = cells[first + width].lerp(cells[first + width + 1], u);
-    near.lerp(far, v)
 }

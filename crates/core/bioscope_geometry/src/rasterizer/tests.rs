@@ -159,7 +159,7 @@ fn depth_and_identity_agree_with_rays_cast_at_balls_and_a_plane() {
         balls.map(|(id, center, radius)| (id, Transform::new(center, Quat::IDENTITY, radius)));
     let flat = Transform::new(Vec3::Y * -1.0, Quat::from_rotation_x(-PI / 2.0), 1.0);
     let scene = scene(vec![
-        batch(ball(90), Material::default(), &places),
+        batch(ball(44), Material::default(), &places),
         batch(square(50.0), Material::default(), &[(2, flat)]),
     ]);
     let prepared = prepare(&scene, &Options { detail: 1.0, ..Options::eye() });
