@@ -221,6 +221,7 @@ def test_inspection_of_a_selected_individual(server):
 def test_each_page_has_its_own_selection_and_a_refused_value_is_said(server):
     async def scene():
         async with page(server) as one, page(server) as two:
+            await one.say("play")
             await one.say("select", id=2)
             await one.until(lambda one: one["type"] == "inspection")
             await two.frame()
@@ -252,6 +253,7 @@ MALFORMED = [
 def test_malformed_messages_end_that_page_only(server, text):
     async def scene():
         async with page(server) as good, page(server) as bad:
+            await good.say("play")
             await bad.frame()
             await bad.link.send(text)
             with pytest.raises(websockets.ConnectionClosed) as closed:
