@@ -7,12 +7,20 @@ import bioscope as bio
 
 def box() -> bio.Mesh:
     """A box of 2 × 2 × 2 m with a texture coordinate at each corner."""
-    corners = np.array(
-        [[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], np.float32
-    )
+    corners = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], np.float32)
     triangles = [
-        [0, 1, 3], [0, 3, 2], [4, 6, 7], [4, 7, 5], [0, 4, 5], [0, 5, 1],
-        [2, 3, 7], [2, 7, 6], [0, 2, 6], [0, 6, 4], [1, 5, 7], [1, 7, 3],
+        [0, 1, 3],
+        [0, 3, 2],
+        [4, 6, 7],
+        [4, 7, 5],
+        [0, 4, 5],
+        [0, 5, 1],
+        [2, 3, 7],
+        [2, 7, 6],
+        [0, 2, 6],
+        [0, 6, 4],
+        [1, 5, 7],
+        [1, 7, 3],
     ]
     uvs = (corners[:, :2] + 1) / 2
     return bio.Mesh(corners, np.array(triangles, np.uint32), uvs=uvs)
@@ -44,8 +52,14 @@ class Stones(bio.Population):
         places = np.stack([across * 3, across * 0, across * 0 - 5], axis=1)
         tints = np.array([[1, 1, 1], [0.5, 1, 1], [1, 0.5, 1], [1, 1, 1], [1, 1, 1]], np.float32)
         scene.instances(
-            "stones", self.mesh, self.material, ids=self.ids, positions=places,
-            scales=np.full(self.count, 0.5, np.float32), tints=tints, alive=False,
+            "stones",
+            self.mesh,
+            self.material,
+            ids=self.ids,
+            positions=places,
+            scales=np.full(self.count, 0.5, np.float32),
+            tints=tints,
+            alive=False,
         )
 
 
@@ -82,7 +96,11 @@ class Gliders(bio.Population):
         velocities = np.zeros_like(self.places)
         velocities[:, 1] = 2.0
         scene.instances(
-            "gliders", self.mesh, self.material, ids=self.ids, positions=self.places,
+            "gliders",
+            self.mesh,
+            self.material,
+            ids=self.ids,
+            positions=self.places,
             velocities=velocities,
         )
 
@@ -99,9 +117,11 @@ def reed() -> bio.Mesh:
     rest = (0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
     above = (0.0, 1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
     return bio.Mesh(
-        positions, np.array(rows, np.uint32),
+        positions,
+        np.array(rows, np.uint32),
         joints=[("root", None, rest), ("tip", 0, above)],
-        joint_indices=np.tile(np.array([0, 1, 0, 0], np.uint8), (10, 1)), joint_weights=weights,
+        joint_indices=np.tile(np.array([0, 1, 0, 0], np.uint8), (10, 1)),
+        joint_weights=weights,
     )
 
 
@@ -133,7 +153,12 @@ class Reeds(bio.Population):
         tints = np.array([[1, 1, 1], [0.5, 1, 0.5], [1, 1, 1], [0.5, 1, 0.5]], np.float32)
         places = np.stack([across, across * 0, across * 0 + 2], axis=1)
         scene.instances(
-            "reeds", self.mesh, self.material, ids=self.ids, positions=places, poses=poses,
+            "reeds",
+            self.mesh,
+            self.material,
+            ids=self.ids,
+            positions=places,
+            poses=poses,
             tints=tints,
         )
 
@@ -193,8 +218,13 @@ class Motes(bio.Population):
     def publish(self, scene):
         radii = np.full(len(self.ids), 0.05, np.float32)
         scene.points(
-            "motes", ids=self.ids, positions=self.places, radii=radii, color=[0.9, 0.9, 1.0],
-            opacity=0.5, glassy=True,
+            "motes",
+            ids=self.ids,
+            positions=self.places,
+            radii=radii,
+            color=[0.9, 0.9, 1.0],
+            opacity=0.5,
+            glassy=True,
         )
 
 

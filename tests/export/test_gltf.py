@@ -124,9 +124,13 @@ def test_moving_things_are_nodes_that_come_and_go(small, name):
 def test_what_stays_has_no_channels(small):
     file = Glb(small)
     for number, _ in file.nodes("stones").values():
-        assert all(file.track(number, path) is None for path in ("translation", "rotation", "scale"))
+        assert all(
+            file.track(number, path) is None for path in ("translation", "rotation", "scale")
+        )
     for number, entry in file.nodes("reeds").values():
-        assert all(file.track(number, path) is None for path in ("translation", "rotation", "scale"))
+        assert all(
+            file.track(number, path) is None for path in ("translation", "rotation", "scale")
+        )
         [root] = entry["children"]
         [tip] = file.json["nodes"][root]["children"]
         assert file.track(tip, "rotation") is not None
@@ -213,7 +217,9 @@ def test_a_jointed_vertex_never_names_a_joint_twice():
     corners = np.zeros((2, 3), np.float32)
     rest = (0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
     mesh = bio.Mesh(
-        corners, np.array([[0, 1, 0]], np.uint32), joints=[("a", None, rest), ("b", 0, rest)],
+        corners,
+        np.array([[0, 1, 0]], np.uint32),
+        joints=[("a", None, rest), ("b", 0, rest)],
         joint_indices=np.array([[1, 1, 0, 0], [0, 1, 1, 1]], np.uint8),
         joint_weights=np.array([[0.25, 0.25, 0.5, 0], [1, 0, 0, 0]], np.float32),
     )

@@ -12,7 +12,7 @@ from pxr import Gf, Usd, UsdGeom, UsdShade, UsdSkel, UsdValidation
 import bioscope as bio
 from bioscope.export import export_world
 from bioscope.geometry.skinning import bent
-from bioscope.geometry.transforms import composed, matrices
+from bioscope.geometry.transforms import matrices
 
 RATE = 24
 QUIET = {"say": lambda _: None}
@@ -179,7 +179,11 @@ def test_long_takes_go_into_clips(tmp_path):
     assert validated(stage) == []
     folder = tmp_path / "long_clips"
     assert sorted(one.name for one in folder.iterdir()) == [
-        "clip_0000.usdc", "clip_0001.usdc", "clip_0002.usdc", "manifest.usda", "topology.usdc",
+        "clip_0000.usdc",
+        "clip_0001.usdc",
+        "clip_0002.usdc",
+        "manifest.usda",
+        "topology.usdc",
     ]
     truth = scenes(seconds, Gliders, Reeds, Blob, Motes)
     mesh = UsdGeom.Mesh.Get(stage, "/World/blob_1/Prototypes/Shape")
@@ -274,7 +278,9 @@ def test_a_full_disk_leaves_nothing_half_written(tmp_path, suffix):
     target.write_bytes(b"old")
     result = subprocess.run(
         [sys.executable, "-c", FULL_DISK, str(target), str(Path(__file__).parent)],
-        capture_output=True, text=True, check=False,
+        capture_output=True,
+        text=True,
+        check=False,
     )
     assert "refused:" in result.stdout, result.stderr
     assert target.read_bytes() == b"old"

@@ -88,7 +88,8 @@ def test_a_shadow_is_darker_than_the_ground_about_it():
     across = -sun[[0, 2]] / sun[1] * 4
     spot = _engine.Camera.looking_at(
         (float(across[0]), 2.0, float(across[1]) + 0.01),
-        (float(across[0]), 0.0, float(across[1])), math.radians(45),
+        (float(across[0]), 0.0, float(across[1])),
+        math.radians(45),
     )
     shadow = picture(things, spot)[12:20, 20:28].mean()
     lit = picture(things[:1], spot)[12:20, 20:28].mean()
@@ -158,7 +159,8 @@ def test_vertex_colors_tints_holes_and_instances_show():
             ("tinted", board(2, 2), WHITE, {"positions": [[1.5, 0, 0]], "tints": tints}),
             ("gone", board(20, 20), gone, {"positions": [[0, 0, 2]]}),
         ],
-        camera(), depth_of_field=False,
+        camera(),
+        depth_of_field=False,
     )
     left, right = seen[14:18, 12:16].mean(axis=(0, 1)), seen[14:18, 32:36].mean(axis=(0, 1))
     assert left[1] > 2 * max(left[0], left[2])
@@ -190,7 +192,9 @@ def test_bent_bodies_are_drawn_bent():
     rest = (0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
     plain = board(1.5, 1.5)
     jointed = bio.Mesh(
-        plain.positions, plain.triangles, joints=[("one", None, rest)],
+        plain.positions,
+        plain.triangles,
+        joints=[("one", None, rest)],
         joint_indices=np.zeros((4, 4), np.uint8),
         joint_weights=np.tile(np.array([1, 0, 0, 0], np.float32), (4, 1)),
     )

@@ -39,8 +39,9 @@ def export_world(
     world
         What to export; it is `seconds` older afterwards.
     path
-        A name that ends in .usdc, .usda or .glb. USD files have their pictures beside them in NAME_textures,
-        and takes of more than ten seconds their samples in NAME_clips; whole or not there.
+        A name that ends in .usdc, .usda or .glb. USD files have their pictures beside them in
+        NAME_textures, and takes of more than ten seconds their samples in NAME_clips; whole or
+        not there.
     seconds, frames_per_second
         Length of the take, and how often it is sampled.
     say

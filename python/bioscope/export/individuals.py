@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
 
 def keys(ids: NDArray[np.uint32]) -> NDArray[np.int64]:
-    """Return a number of its own for each instance: its id, and beyond 2³² for parts that share one."""
+    """Return a number of its own for each instance: its id, and 2³² more for each equal before."""
     whole = ids.astype(np.int64)
     if len(np.unique(whole)) == len(whole):
         return whole

@@ -37,5 +37,3 @@ def srgb(linear: NDArray[np.floating]) -> NDArray[np.floating]:
     low = linear * 12.92
     high = 1.055 * np.power(np.maximum(linear, 1e-9), 1 / 2.4) - 0.055
     return np.where(linear <= 0.0031308, low, high)
-
-

@@ -6,7 +6,7 @@ import re
 
 
 class Names:
-    """Gives each key a name of its own: letters, digits and underscores, not beginning with a digit."""
+    """Gives each key a name of its own: letters, digits and underscores, no digit first."""
 
     def __init__(self, *taken: str) -> None:
         self._taken = set(taken)

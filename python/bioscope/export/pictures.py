@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 
-def opaque(pixels: Any) -> NDArray[np.uint8]:
+def opaque(pixels: NDArray[np.uint8]) -> NDArray[np.uint8]:
     """Return pixels (height, width, 4) without the opacity where it is full everywhere."""
     if (pixels[..., 3] == 255).all():
         return np.ascontiguousarray(pixels[..., :3])

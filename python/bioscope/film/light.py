@@ -1,8 +1,8 @@
 """How light reaches a thing and how it reaches the eye, on arrays of pixels.
 
-The formulae are those of the rasterizer (`bioscope_geometry/src/rasterizer/light.rs`) under the same
-names, so that a path-traced picture and a preview show the same water. Radiance is linear RGB in the last
-axis, lengths are metres, depth is metres below the surface.
+The formulae are those of the rasterizer (`bioscope_geometry/src/rasterizer/light.rs`) under the
+same names, so that a path-traced picture and a preview show the same water. Radiance is linear
+RGB in the last axis, lengths are metres, depth is metres below the surface.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
     from bioscope._engine import Scene
 
-    Floats = NDArray[np.float32]
+    Floats = NDArray[np.floating]
 
 REFRACTION = 1.34
 """Index of refraction of sea water against air."""
@@ -49,7 +49,7 @@ class Light:
         """Return metres below the surface; negative in air."""
         return -1.0 + 0 * height if self.surface is None else self.surface - height
 
-    def daylight(self, depth: Floats) -> Floats:
+    def daylight(self, depth: Floats | np.floating) -> Floats:
         """Return what is left of daylight at depths (…)."""
         return _decayed(self.absorption, np.maximum(depth, 0.0))
 
@@ -135,7 +135,7 @@ def fresnel(inside: Floats, outside: Floats) -> Floats:
 
 def filmic(radiance: Floats) -> Floats:
     """Return display values 0 to 1 of radiance: Narkowicz' fit of the ACES curve."""
-    x = np.maximum(radiance, 0.0) * 0.8
+    x: Floats = np.maximum(radiance, 0.0) * 0.8
     white = (x @ _numbers([0.2126, 0.7152, 0.0722]))[..., None]
     x = mixed(x, white, 0.35 * smoothstep(0.6, 4.0, white))
     curve = (x * (x * 2.51 + 0.03)) / (x * (x * 2.43 + 0.59) + 0.14)
@@ -152,25 +152,25 @@ def developed(radiance: Floats) -> NDArray[np.uint8]:
 
 def mixed(first: Floats, second: Floats, share: Any) -> Floats:
     """Return the first at share 0, the second at share 1."""
-    return first + (second - first) * share
+    return np.asarray(first + (second - first) * share)
 
 
 def smoothstep(low: float, high: float, value: Floats) -> Floats:
     """Return 0 at `low`, 1 at `high`, smooth between."""
     x = np.clip((value - low) / (high - low), 0.0, 1.0)
-    return x * x * (3.0 - 2.0 * x)
+    return np.asarray(x * x * (3.0 - 2.0 * x))
 
 
 def unit(vectors: Floats) -> Floats:
     """Return vectors (…, 3) at length 1."""
-    return vectors / np.linalg.norm(vectors, axis=-1, keepdims=True)
+    return np.asarray(vectors / np.linalg.norm(vectors, axis=-1, keepdims=True))
 
 
 def _numbers(values: Any) -> Floats:
     return np.array(values, np.float32)
 
 
-def _decayed(rate: Floats, distance: Floats) -> Floats:
+def _decayed(rate: Floats, distance: Floats | np.floating) -> Floats:
     with np.errstate(under="ignore"):
-        left: Floats = np.exp(-rate * distance[..., None])
+        left: Floats = np.exp(-rate * np.asarray(distance)[..., None])
     return left

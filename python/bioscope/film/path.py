@@ -7,10 +7,10 @@ A picture is made of some renderings and the water's own formulae:
 * the sun with its bounces, of which only the bounced part is used;
 * the sky alone, with bounces; under water the sky is the glow of the water all round.
 
-Bounced and sky light are smoothed where surfaces are smooth. Then the sun's part gets its caustics, all light
-is dimmed by its depth, and the water between thing and eye takes and adds its share. So water costs
-no noise and looks as it does in the preview and on the page. Pixels are rendered as 2 x 2 parts, each of
-them put under water by itself, so that edges stay clean.
+Bounced and sky light are smoothed where surfaces are smooth. Then the sun's part gets its
+caustics, all light is dimmed by its depth, and the water between thing and eye takes and adds its
+share. So water costs no noise and looks as it does in the preview and on the page. Pixels are
+rendered as 2 x 2 parts, each of them put under water by itself, so that edges stay clean.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 
     from bioscope._engine import Camera, Scene
 
-    Floats = NDArray[np.float32]
+    Floats = NDArray[np.floating]
 
 _PARTS = 2
 """Parts of a pixel along each side."""
@@ -104,9 +104,7 @@ class PathRenderer:
         radiance = radiance.reshape(height, parts, width, parts, 3).mean(axis=(1, 3))
         return developed(radiance)
 
-    def _seen(
-        self, scene: Scene, camera: Camera, light: Light, directions: Floats
-    ) -> Seen:
+    def _seen(self, scene: Scene, camera: Camera, light: Light, directions: Floats) -> Seen:
         """Render the sun, its bounces and the sky."""
         mitsuba = self._mitsuba
         under = light.depth(camera.position[1]) > 0
@@ -207,11 +205,11 @@ class PathRenderer:
         axes = _axes(camera)
         rays = x[..., None] * axes[:, 0] + y[..., None] * axes[:, 1] + axes[:, 2]
         rays /= np.linalg.norm(rays, axis=-1, keepdims=True)
-        return rays.astype(np.float32)
+        return np.asarray(rays, np.float32)
 
 
-# Mitsuba's `volpath` rather than `path`: its shadows have the holes of cut-out surfaces, and its way of
-# hiding emitters goes together with instances (3.9.1's `path` crashes).
+# Mitsuba's `volpath` rather than `path`: its shadows have the holes of cut-out surfaces, and its
+# way of hiding emitters goes together with instances (3.9.1's `path` crashes).
 _BOUNCING = {"type": "volpath", "max_depth": _BOUNCES + 1, "hide_emitters": True}
 _DIRECT = {"type": "volpath", "max_depth": 2, "hide_emitters": True}
 _DISTANCE = {"type": "depth"}
@@ -223,7 +221,7 @@ def _lamp(camera: Camera) -> dict[str, Any]:
     return {"type": "point", "position": place, "intensity": {"type": "rgb", "value": math.pi}}
 
 
-def _axes(camera: Camera) -> NDArray[np.float64]:
+def _axes(camera: Camera) -> NDArray[np.floating]:
     """Return the camera's right, up and ahead as columns."""
     from bioscope.geometry.transforms import rotated
 
@@ -252,7 +250,9 @@ class Seen:
         lit = self.distance**2 / np.maximum(slant, 0.15)
         color = np.clip(lamp[..., :3] * lit[..., None], 0.02, 1.0)
         soft = []
-        for light, most in zip((bounced[..., :3] - direct[..., :3], sky[..., :3]), limits, strict=True):
+        for light, most in zip(
+            (bounced[..., :3] - direct[..., :3], sky[..., :3]), limits, strict=True
+        ):
             even = np.clip(light / color, -most, most)
             soft.append(smoothed(even, normals, self.distance, _SMOOTHING) * color)
         self.sun = direct[..., :3]

@@ -1,6 +1,7 @@
 """Beams of sunlight in the water: a march along coarse rays through the pattern of the waves.
 
-As in the rasterizer (`bioscope_geometry/src/rasterizer/shafts.rs`), but things cast no shadows into them.
+As in the rasterizer (`bioscope_geometry/src/rasterizer/shafts.rs`), but things cast no shadows
+into them.
 """
 
 from __future__ import annotations

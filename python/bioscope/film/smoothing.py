@@ -1,8 +1,8 @@
-"""Taking the noise out of soft light: an edge-avoiding filter guided by what is known without noise.
+"""Taking the noise out of soft light: an edge-avoiding filter guided by the forms.
 
-After Dammertz, Sewtz, Hanika and Lensch (2010), "Edge-Avoiding À-Trous Wavelet Transform for fast Global
-Illumination Filtering": a 5 x 5 binomial kernel spread wider at every level, its weights lowered where
-normals or distances differ.
+After Dammertz, Sewtz, Hanika and Lensch (2010), "Edge-Avoiding À-Trous Wavelet Transform for fast
+Global Illumination Filtering": a 5 x 5 binomial kernel spread wider at every level, its weights
+lowered where normals or distances differ.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ import numpy as np
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    Floats = NDArray[np.float32]
+    Floats = NDArray[np.floating]
 
 _KERNEL = (1 / 16, 4 / 16, 6 / 16, 4 / 16, 1 / 16)
 
@@ -37,11 +37,11 @@ def smoothed(light: Floats, normals: Floats, distances: Floats, levels: int) -> 
 
 
 def facing(places: Floats) -> Floats:
-    """Return the unit normals (rows, columns, 3) of the surfaces through places (rows, columns, 3)."""
+    """Return the unit normals (rows, columns, 3) of the surfaces through places."""
     down, across = (np.gradient(places, axis=axis) for axis in (0, 1))
     normals = np.cross(down, across)
     lengths = np.linalg.norm(normals, axis=-1, keepdims=True)
-    return (normals / np.maximum(lengths, 1e-12)).astype(np.float32)
+    return np.asarray(normals / np.maximum(lengths, 1e-12), np.float32)
 
 
 def _level(light: Floats, normals: Floats, distances: Floats, step: int) -> Floats:
@@ -62,7 +62,8 @@ def _level(light: Floats, normals: Floats, distances: Floats, step: int) -> Floa
             total += near * weight[..., None]
             weights += weight
         there = weights > 1e-6
-        light = np.where(there[..., None], total / np.maximum(weights, 1e-6)[..., None], light)
+        mean: Floats = total / np.maximum(weights, 1e-6)[..., None]
+        light = np.where(there[..., None], mean, light)
     return light
 
 
@@ -74,5 +75,5 @@ def _padded(values: Floats, width: int, axis: int) -> Floats:
 
 
 def _slice(values: Floats, start: int, count: int, axis: int) -> Floats:
-    """A part along one of the first two axes, as a view."""
+    """Return a part along one of the first two axes, as a view."""
     return values[start : start + count] if axis == 0 else values[:, start : start + count]

@@ -1,4 +1,4 @@
-"""A published scene as a Mitsuba scene: shapes kept from frame to frame by the keys of their meshes."""
+"""A published scene as Mitsuba's shapes, kept from frame to frame by their meshes' keys."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from bioscope._engine import Batch, Mesh, Scene
     from bioscope.geometry.palette import Color
 
-    Floats = NDArray[np.float32]
+    Floats = NDArray[np.floating]
 
 _MOST_MERGED = 400_000
 """Vertices of one batch that are placed in one mesh rather than by instances."""
@@ -91,8 +91,8 @@ class Staging:
             return {name: self._mesh(Form.joined(forms), batch, tint)}
         places = np.ascontiguousarray(batch.transforms[rows])
         if len(rows) * len(mesh.positions) <= _MOST_MERGED:
-            key = (mesh.key, batch.material.key, tint, places.tobytes())
-            return {name: self._keep(key, lambda: self._merged(batch, places, tint))}
+            whole_key = (mesh.key, batch.material.key, tint, places.tobytes())
+            return {name: self._keep(whole_key, lambda: self._merged(batch, places, tint))}
         key = (mesh.key, batch.material.key, tint)
         group = self._keep(key, lambda: self._group(batch, tint))
         found = {f"{name} group": group}

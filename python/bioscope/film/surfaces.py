@@ -103,22 +103,20 @@ class Surfaces:
         return {"type": "bitmap", "bitmap": bitmap, "raw": True}
 
 
-def vertex_factor(
-    material: Material | Grain, tint: Color, *, mapped: bool
-) -> NDArray[np.floating]:
+def vertex_factor(material: Material | Grain, tint: Color, *, mapped: bool) -> NDArray[np.floating]:
     """Return the color by which vertex colors are multiplied before a picture darkens them."""
     color = np.array(material.color) * np.array(tint)
     if not mapped or material.texture is None:
-        return color
+        return np.asarray(color)
     pixels = linear(material.texture[..., :3])
     bright = pixels.mean(axis=-1)
     hue = pixels.mean(axis=(0, 1)) / max(float(bright.mean()), 1e-6)
-    return color * hue * bright.max()
+    return np.asarray(color * hue * bright.max())
 
 
 def brightness(picture: NDArray[np.uint8]) -> NDArray[np.float32]:
     """Return the linear brightness (height, width) of a picture, not all 0."""
-    return np.maximum(linear(picture[..., :3]).mean(axis=-1), 1e-6)
+    return np.asarray(np.maximum(linear(picture[..., :3]).mean(axis=-1), 1e-6), np.float32)
 
 
 def _rgb(color: list[float]) -> dict[str, Any]:
@@ -129,4 +127,4 @@ def linear(pixels: NDArray[np.uint8]) -> NDArray[np.float32]:
     """Return sRGB bytes as linear values 0 to 1."""
     levels = np.arange(256) / 255
     curve = np.where(levels <= 0.04045, levels / 12.92, ((levels + 0.055) / 1.055) ** 2.4)
-    return curve.astype(np.float32)[pixels]
+    return np.asarray(curve.astype(np.float32)[pixels])

@@ -1,7 +1,7 @@
 """Which variant of Mitsuba runs here.
 
-Its compiled variants abort the whole process with some drivers and LLVM versions, so each is tried by a
-child process first. What was found holds for the session.
+Its compiled variants abort the whole process with some drivers and LLVM versions, so each is
+tried by a child process first. What was found holds for the session.
 """
 
 from __future__ import annotations

@@ -1,6 +1,7 @@
-"""The ripples of the water surface: slopes and caustics on a square tile, as the rasterizer has them.
+"""The ripples of the water surface: slopes and caustics on a square tile.
 
-See `bioscope_geometry/src/rasterizer/waves.rs` for the model; both give the same pattern at the same time.
+See `bioscope_geometry/src/rasterizer/waves.rs` for the model; both give the same pattern at the
+same time.
 """
 
 from __future__ import annotations
@@ -109,7 +110,7 @@ def _gathered(slopes: Floats) -> Floats:
 
 
 def _corners(x: Floats, z: Floats, size: int) -> list[tuple[NDArray[np.int64], Floats]]:
-    """The four grid points about places given in grid steps, and their shares."""
+    """Return the four grid points about places given in grid steps, and their shares."""
     left, top = np.floor(x), np.floor(z)
     u, v = x - left, z - top
     columns = left.astype(np.int64) % size, (left.astype(np.int64) + 1) % size

@@ -19,12 +19,14 @@ _STEPS = (16, 8, 4, 2, 1)
 
 
 class Palette:
-    """The tints of one batch, rounded so that there are at most `limit`; each id keeps its first."""
+    """The tints of one batch, rounded to at most `limit`; each id keeps its first."""
 
     def __init__(self, batch: Batch | Balls, limit: int = 12) -> None:
         self.colors: list[Color] = []
         self._limit = limit
-        self._steps = next(step for step in _STEPS if self._count(batch, step) <= limit or step == 1)
+        self._steps = next(
+            step for step in _STEPS if self._count(batch, step) <= limit or step == 1
+        )
         self._of_id: dict[int, int] = {}
 
     @staticmethod

@@ -24,9 +24,7 @@ def parents(mesh: Mesh) -> list[int | None]:
     return [parent for _, parent, _ in mesh.joints]
 
 
-def bent(
-    mesh: Mesh, pose: NDArray[np.float32]
-) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+def bent(mesh: Mesh, pose: NDArray[np.float32]) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
     """Return positions and unit normals (vertices, 3) of a mesh bent to a pose.
 
     Parameters

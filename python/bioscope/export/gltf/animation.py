@@ -73,7 +73,7 @@ def continuous(rotations: NDArray[np.float32]) -> NDArray[np.float32]:
     signs = np.where(np.sum(rotations[1:] * rotations[:-1], axis=1) < 0, -1.0, 1.0)
     flips = np.concatenate([[1.0], np.cumprod(signs)])[:, None]
     lengths = np.linalg.norm(rotations.astype(np.float64), axis=1, keepdims=True)
-    return (rotations * flips / lengths).astype(np.float32)
+    return np.asarray(rotations * flips / lengths, np.float32)
 
 
 def placement(transform: NDArray[np.float32]) -> dict[str, Any]:

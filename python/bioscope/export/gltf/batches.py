@@ -1,8 +1,8 @@
 """Recorded batches as nodes.
 
-Each individual is a node with the shared mesh, or, if it is jointed, a skeleton of nodes with a skin. A
-great number of things that stay is one node with `EXT_mesh_gpu_instancing` per cell of space; a reader
-that does not know the extension shows the first of each cell in its place.
+Each individual is a node with the shared mesh, or, if it is jointed, a skeleton of nodes with a
+skin. A great number of things that stay is one node with `EXT_mesh_gpu_instancing` per cell of
+space; a reader that does not know the extension shows the first of each cell in its place.
 """
 
 from __future__ import annotations
@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from bioscope.geometry.balls import Balls
 from bioscope.export.gltf.animation import continuous, placement
 from bioscope.export.gltf.meshes import brightest, same_build
+from bioscope.geometry.balls import Balls
 from bioscope.geometry.skinning import rest_pose
 from bioscope.geometry.transforms import composed, inverse, matrices
 
@@ -62,7 +62,10 @@ class Batches:
         forms, weights = self._forms(recording)
         batch = recording.first
         factor = brightest(forms[0])
-        tints = [(red * factor, green * factor, blue * factor) for red, green, blue in recording.palette.colors]
+        tints = [
+            (red * factor, green * factor, blue * factor)
+            for red, green, blue in recording.palette.colors
+        ]
         meshes = [
             self._meshes.of(batch.name, forms, self._materials.of(batch.material, tint))
             for tint in tints
@@ -70,7 +73,9 @@ class Batches:
         still = presence.all() and np.array_equal(motion, motion[:, :1].repeat(motion.shape[1], 1))
         crowded = len(presence) > _MOST_NODES
         if crowded and not still:
-            self._say(f"{batch.name}: more than {_MOST_NODES} individuals; they stay where they begin")
+            self._say(
+                f"{batch.name}: more than {_MOST_NODES} individuals; they stay where they begin"
+            )
         if batch.mesh.joints and not crowded:
             group = self._jointed(recording, meshes, motion, presence)
         elif crowded and isinstance(batch, Balls):
@@ -92,7 +97,9 @@ class Batches:
         if len(forms) == 1:
             return forms, None
         if forms[0].joints or not same_build(forms):
-            self._say(f"{recording.first.name}: it changes its build; every frame has its first form")
+            self._say(
+                f"{recording.first.name}: it changes its build; every frame has its first form"
+            )
             return forms[:1], None
         kept = np.unique(np.linspace(0, len(forms) - 1, _MOST_TARGETS + 1).round().astype(int))
         times = self._times[[frames[index] for index in kept]]
@@ -121,7 +128,7 @@ class Batches:
         motion: NDArray[np.float32],
         presence: NDArray[np.bool_],
     ) -> list[int]:
-        """Write skeletons; the skinned meshes are roots, as glTF places them by their joints alone."""
+        """Write skeletons; skinned meshes are roots, as their joints alone place them."""
         mesh = recording.first.mesh
         joints = [(name, parent) for name, parent, _ in mesh.joints]
         bind = self._file.numbers(_columns(inverse(rest_pose(mesh))))
@@ -136,7 +143,11 @@ class Batches:
                 if parent is not None:
                     above = self._file.lists["nodes"][numbers[parent]]
                     above.setdefault("children", []).append(numbers[index])
-            top = [number for number, (_, parent) in zip(numbers, joints, strict=True) if parent is None]
+            top = [
+                number
+                for number, (_, parent) in zip(numbers, joints, strict=True)
+                if parent is None
+            ]
             entry = {"name": name, "children": top, "extras": {"id": key & 0xFFFFFFFF}}
             place = self._file.add("nodes", {**entry, **placement(motion[row, 0, 0])})
             skin = {"joints": numbers, "inverseBindMatrices": bind, "skeleton": place}
@@ -160,9 +171,7 @@ class Batches:
         self._file.extensions.add("EXT_mesh_gpu_instancing")
         colors = np.array([recording.colors[row] for row in range(len(places))])
         cells = np.floor(places[:, [0, 2]] / _CELL_METRES)
-        groups, members = np.unique(
-            np.column_stack([colors, cells]), axis=0, return_inverse=True
-        )
+        groups, members = np.unique(np.column_stack([colors, cells]), axis=0, return_inverse=True)
         made = []
         for number, group in enumerate(groups):
             rows = np.flatnonzero(members.reshape(-1) == number)
@@ -202,5 +211,3 @@ def _columns(transforms: NDArray[np.floating]) -> NDArray[np.float32]:
     whole[:, :3] = matrices(transforms)
     whole[:, 3, 3] = 1.0
     return np.swapaxes(whole, 1, 2).reshape(-1, 16)
-
-

@@ -24,7 +24,7 @@ _MOST_BYTES = 2**31
 
 
 class Container:
-    """A glTF file in the making: `lists` by the format's own names, each entry found by its index."""
+    """A glTF file in the making: `lists` by the format's own names, entries by their index."""
 
     def __init__(self) -> None:
         self.lists: dict[str, list[Any]] = {}

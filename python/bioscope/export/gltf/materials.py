@@ -5,13 +5,13 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from bioscope import _engine
-from bioscope.geometry.palette import WHITE
 from bioscope.export.pictures import opaque, refraction
+from bioscope.geometry.palette import WHITE
 
 if TYPE_CHECKING:
     from bioscope._engine import Material
-    from bioscope.geometry.balls import Grain
     from bioscope.export.gltf.container import Container
+    from bioscope.geometry.balls import Grain
     from bioscope.geometry.palette import Color
 
 _USUAL_SPECULAR = 0.04
@@ -56,9 +56,10 @@ class Materials:
         return entry
 
     def _texture(self, material: Material | Grain) -> int:
-        if material.texture_key not in self._textures:
+        texture = material.texture
+        if texture is not None and material.texture_key not in self._textures:
             container = self._container
-            view = container.view(_engine.encode_png(opaque(material.texture)))
+            view = container.view(_engine.encode_png(opaque(texture)))
             image = container.add(
                 "images", {"name": material.name, "bufferView": view, "mimeType": "image/png"}
             )

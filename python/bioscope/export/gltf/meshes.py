@@ -20,14 +20,16 @@ class Meshes:
 
     def __init__(self, container: Container) -> None:
         self._container = container
-        self._primitives: dict[int, dict[str, Any]] = {}
+        self._primitives: dict[tuple[int, bool], dict[str, Any]] = {}
         self._made: dict[object, int] = {}
 
     def of(self, name: str, forms: list[Mesh], material: int) -> int:
         """Return a mesh in a material; further forms of it become morph targets."""
         key = (forms[0].key, len(forms), material)
         if key not in self._made:
-            primitive = {**self._primitive(forms[0]), "material": material}
+            surface = self._container.lists["materials"][material]["pbrMetallicRoughness"]
+            pictured = "baseColorTexture" in surface
+            primitive = {**self._primitive(forms[0], pictured=pictured), "material": material}
             entry: dict[str, Any] = {"name": name, "primitives": [primitive]}
             if len(forms) > 1:
                 primitive["targets"] = [self._target(forms[0], form) for form in forms[1:]]
@@ -35,24 +37,27 @@ class Meshes:
             self._made[key] = self._container.add("meshes", entry)
         return self._made[key]
 
-    def _primitive(self, mesh: Mesh) -> dict[str, Any]:
-        if mesh.key not in self._primitives:
+    def _primitive(self, mesh: Mesh, *, pictured: bool) -> dict[str, Any]:
+        key = (mesh.key, pictured)
+        if key not in self._primitives:
             file = self._container
             attributes = {
                 "POSITION": file.vertices(mesh.positions, bounds=True),
                 "NORMAL": file.vertices(units(mesh.normals)),
             }
-            if len(mesh.uvs):
+            if pictured and len(mesh.uvs):
                 attributes["TEXCOORD_0"] = file.vertices(mesh.uvs)
             if len(mesh.colors):
-                attributes["COLOR_0"] = file.vertices((mesh.colors / brightest(mesh)).astype(np.float32))
+                attributes["COLOR_0"] = file.vertices(
+                    (mesh.colors / brightest(mesh)).astype(np.float32)
+                )
             if mesh.joints:
                 indices, weights = bindings(mesh)
                 attributes["JOINTS_0"] = file.vertices(indices)
                 attributes["WEIGHTS_0"] = file.vertices(weights)
             triangles = file.indices(mesh.triangles, len(mesh.positions))
-            self._primitives[mesh.key] = {"attributes": attributes, "indices": triangles}
-        return self._primitives[mesh.key]
+            self._primitives[key] = {"attributes": attributes, "indices": triangles}
+        return self._primitives[key]
 
     def _target(self, base: Mesh, form: Mesh) -> dict[str, int]:
         file = self._container

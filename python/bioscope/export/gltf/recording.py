@@ -71,7 +71,7 @@ class Recording:
         return there
 
     def motion(self, presence: NDArray[np.bool_]) -> NDArray[np.float32]:
-        """Return transforms (individuals, frames, 1 + joints, 8): place, then joints in their parents.
+        """Return transforms (individuals, frames, 1 + joints, 8): place, then joints in parents.
 
         The absent have the values of when they were last, or first, there.
         """

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from bioscope.geometry.balls import Balls
 from bioscope.export.gltf.animation import Animation, placement
 from bioscope.export.gltf.batches import Batches
 from bioscope.export.gltf.container import Container
@@ -15,6 +14,7 @@ from bioscope.export.gltf.meshes import Meshes
 from bioscope.export.gltf.recording import Recording
 from bioscope.export.lights import from_minus_z
 from bioscope.files import written_whole
+from bioscope.geometry.balls import Balls
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from bioscope._engine import Camera, Scene
+    from bioscope._engine import Batch, Camera, Scene
     from bioscope.export.take import Frame, Take
 
 _SUN = "KHR_lights_punctual"
@@ -59,7 +59,7 @@ class Gathering:
         for name, camera in frame.cameras.items():
             self._cameras.setdefault(name, []).append((frame.number, camera))
 
-    def _record(self, key: tuple[str, str], frame: int, batch: Any) -> None:
+    def _record(self, key: tuple[str, str], frame: int, batch: Batch | Balls) -> None:
         if key not in self._recordings:
             self._recordings[key] = Recording(batch)
         self._recordings[key].add(frame, batch)

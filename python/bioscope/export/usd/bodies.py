@@ -1,23 +1,23 @@
-"""One prim per individual: jointed bodies with UsdSkel, and rigid ones for importers without instancers.
+"""One prim per individual: jointed bodies with UsdSkel, rigid ones for plain importers.
 
-Each color of a batch has an abstract body (a class); every individual is an instance of one, placed by
-its own transform. A jointed individual has a SkelAnimation of its own beside it; mesh and skeleton are
-shared by all.
+Each color of a batch has an abstract body (a class); every individual is an instance of one,
+placed by its own transform. A jointed individual has a SkelAnimation of its own beside it; mesh
+and skeleton are shared by all.
 """
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
-from pxr import UsdGeom, UsdSkel, Vt
+from pxr import Usd, UsdGeom, UsdSkel, Vt
 
 from bioscope.export.individuals import keys
 from bioscope.export.names import Names
-from bioscope.geometry.palette import Palette
 from bioscope.export.usd.crowd import bind, describe
 from bioscope.export.usd.samples import usd_value
 from bioscope.export.usd.shape import Shape
+from bioscope.geometry.palette import Palette
 from bioscope.geometry.skinning import parents, rest_pose
 from bioscope.geometry.transforms import matrices, relative_to_parents
 
@@ -25,9 +25,9 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from bioscope._engine import Batch, Mesh
-    from bioscope.geometry.balls import Balls
     from bioscope.export.usd.looks import Looks
     from bioscope.export.usd.samples import Channel, Samples
+    from bioscope.geometry.balls import Balls
 
 _LENGTH_TOLERANCE = 2e-6
 """Metres: changes of a joint's place below this are rounding."""
@@ -36,7 +36,9 @@ _LENGTH_TOLERANCE = 2e-6
 class Bodies:
     """A batch of individuals, each a prim."""
 
-    def __init__(self, stage: Any, path: str, batch: Batch | Balls, looks: Looks, samples: Samples) -> None:
+    def __init__(
+        self, stage: Usd.Stage, path: str, batch: Batch | Balls, looks: Looks, samples: Samples
+    ) -> None:
         self._stage, self._path, self._looks, self._samples = stage, path, looks, samples
         self._mesh = batch.mesh
         self.skeleton = Joints(batch.mesh) if batch.mesh.joints else None
@@ -52,7 +54,8 @@ class Bodies:
     @property
     def mesh_key(self) -> int:
         """Key of the mesh that all have."""
-        return self._mesh.key
+        key: int = self._mesh.key
+        return key
 
     def frame(self, batch: Batch | Balls) -> None:
         """Show the batch as it is now."""
@@ -98,7 +101,9 @@ class Bodies:
 
     def _individual(self, key: int, body: str) -> Individual:
         name = f"i{key}"
-        prim = self._stage.DefinePrim(f"{self._path}/{name}", "SkelRoot" if self.skeleton else "Xform")
+        prim = self._stage.DefinePrim(
+            f"{self._path}/{name}", "SkelRoot" if self.skeleton else "Xform"
+        )
         prim.GetReferences().AddInternalReference(body)
         prim.SetInstanceable(True)
         prim.SetCustomDataByKey("bioscope:id", key)
@@ -112,7 +117,7 @@ class Bodies:
 class Individual:
     """One placed, perhaps jointed body."""
 
-    def __init__(self, prim: Any, motion: Any, samples: Samples) -> None:
+    def __init__(self, prim: Usd.Prim, motion: UsdSkel.Animation | None, samples: Samples) -> None:
         form = UsdGeom.Xformable(prim)
         self._place = samples.channel(form.AddTranslateOp().GetAttr())
         self._turn = samples.channel(form.AddOrientOp().GetAttr(), tolerance=1e-6)
@@ -168,7 +173,7 @@ class Joints:
             poses = np.broadcast_to(self._rest, (len(batch.ids), *self._rest.shape))
         return relative_to_parents(poses, self._parents)
 
-    def write(self, stage: Any, root: Any, shape: Shape) -> None:
+    def write(self, stage: Usd.Stage, root: Usd.Prim, shape: Shape) -> None:
         """Write the skeleton under `root` and bind the shape to it."""
         skeleton = UsdSkel.Skeleton.Define(stage, root.GetPath().AppendChild("Skeleton"))
         skeleton.CreateJointsAttr(self.tokens)
@@ -182,14 +187,14 @@ class Joints:
         weights = binding.CreateJointWeightsPrimvar(False, 4)
         weights.GetAttr().Set(usd_value(weights.GetAttr(), self._mesh.joint_weights.reshape(-1)))
 
-    def animation(self, stage: Any, path: str) -> Any:
+    def animation(self, stage: Usd.Stage, path: str) -> UsdSkel.Animation:
         """Return a new animation of these joints."""
         animation = UsdSkel.Animation.Define(stage, path)
         animation.CreateJointsAttr(self.tokens)
         return animation
 
 
-def _matrices(transforms: NDArray[np.floating]) -> Any:
+def _matrices(transforms: NDArray[np.floating]) -> Vt.Matrix4dArray:
     """Return similarities (n, 8) as USD's matrices, which are applied to rows."""
     columns = matrices(transforms)
     whole = np.zeros((len(transforms), 4, 4))
@@ -197,5 +202,3 @@ def _matrices(transforms: NDArray[np.floating]) -> Any:
     whole[:, 3, :3] = columns[:, :, 3]
     whole[:, 3, 3] = 1.0
     return Vt.Matrix4dArray.FromNumpy(whole)
-
-

@@ -9,25 +9,25 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from pxr import UsdGeom, UsdShade
+from pxr import Usd, UsdGeom, UsdShade
 
 from bioscope.export.individuals import Slots, keys, placed
-from bioscope.geometry.palette import Palette
 from bioscope.export.usd.shape import Shape
+from bioscope.geometry.palette import Palette
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from bioscope._engine import Batch
-    from bioscope.geometry.balls import Balls
     from bioscope.export.usd.looks import Looks
     from bioscope.export.usd.samples import Samples
+    from bioscope.geometry.balls import Balls
 
 
 class Instancer:
     """A PointInstancer with a row per individual that was ever there."""
 
-    def __init__(self, stage: Any, path: str, samples: Samples, *, moving: bool) -> None:
+    def __init__(self, stage: Usd.Stage, path: str, samples: Samples, *, moving: bool) -> None:
         self.path = path
         self.prim = UsdGeom.PointInstancer.Define(stage, path)
         self._slots = Slots()
@@ -41,10 +41,10 @@ class Instancer:
             "ids": samples.channel(prim.CreateIdsAttr(), prim.CreateProtoIndicesAttr()),
             "hidden": samples.channel(prim.CreateInvisibleIdsAttr()),
         }
-        self._tables: dict[str, NDArray[np.floating]] = {}
+        self._tables: dict[str, NDArray[Any]] = {}
 
-    def frame(self, present: NDArray[np.int64], **values: NDArray[np.floating]) -> None:
-        """Place individuals: `places`, `rotations`, `scales`, `velocities`, `prototypes`, a row each."""
+    def frame(self, present: NDArray[np.int64], **values: NDArray[Any]) -> None:
+        """Place individuals by rows of places, rotations, scales, velocities, prototypes."""
         rows = self._slots.rows(present)
         ids = self._slots.keys
         for name, new in values.items():
@@ -71,7 +71,9 @@ class Instancer:
 class Crowd:
     """A batch of rigid instances."""
 
-    def __init__(self, stage: Any, path: str, batch: Batch | Balls, looks: Looks, samples: Samples) -> None:
+    def __init__(
+        self, stage: Usd.Stage, path: str, batch: Batch | Balls, looks: Looks, samples: Samples
+    ) -> None:
         self._stage, self._looks, self._samples = stage, looks, samples
         moving = len(batch.velocities) > 0
         self._instancer = Instancer(stage, path, samples, moving=moving)
@@ -93,7 +95,7 @@ class Crowd:
             rotations=batch.rotations,
             scales=batch.scales,
             velocities=velocities,
-            prototypes=prototypes,
+            prototypes=prototypes.astype(np.float32),
         )
 
     def empty(self) -> None:
@@ -105,7 +107,7 @@ class Variants:
     """A mesh in several colors: the first is the mesh, the others refer to it."""
 
     def __init__(
-        self, stage: Any, path: str, batch: Batch | Balls, looks: Looks, samples: Samples
+        self, stage: Usd.Stage, path: str, batch: Batch | Balls, looks: Looks, samples: Samples
     ) -> None:
         self._stage, self._path, self._looks = stage, path, looks
         self._material = batch.material
@@ -130,11 +132,11 @@ class Variants:
         return made
 
 
-def bind(prim: Any, material: Any) -> None:
+def bind(prim: Usd.Prim, material: UsdShade.Material) -> None:
     """Give a prim its material."""
     UsdShade.MaterialBindingAPI.Apply(prim).Bind(material)
 
 
-def describe(prim: Any, published: Batch | Balls) -> None:
+def describe(prim: UsdGeom.Imageable, published: Batch | Balls) -> None:
     """Write down whose prim it is."""
     prim.GetPrim().SetCustomDataByKey("bioscope:species", published.species)

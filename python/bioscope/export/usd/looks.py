@@ -1,22 +1,25 @@
 """Materials as UsdPreviewSurface, with their pictures in a folder beside the stage.
 
-A preview surface cannot multiply a picture by vertex colors: where a mesh has both, the picture wins and
-the colors remain as `displayColor`.
+A preview surface cannot multiply a picture by vertex colors: where a mesh has both, the picture
+wins and the colors remain as `displayColor`.
 """
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-from pxr import Gf, Sdf, UsdShade
+from pxr import Gf, Sdf, Usd, UsdShade
 
 from bioscope import _engine
 from bioscope.export.names import Names
-from bioscope.geometry.palette import WHITE
 from bioscope.export.pictures import opaque, refraction
+from bioscope.geometry.palette import WHITE
 
 if TYPE_CHECKING:
     from pathlib import Path
+
+    import numpy as np
+    from numpy.typing import NDArray
 
     from bioscope._engine import Material
     from bioscope.geometry.balls import Grain
@@ -26,14 +29,16 @@ if TYPE_CHECKING:
 class Looks:
     """The materials of a stage, each written once."""
 
-    def __init__(self, stage: Any, scope: str, folder: Path, base: str) -> None:
+    def __init__(self, stage: Usd.Stage, scope: str, folder: Path, base: str) -> None:
         self._stage, self._scope = stage, scope
         self._folder, self._base = folder, base
         self._names = Names()
         self._pictures = Names()
-        self._made: dict[object, Any] = {}
+        self._made: dict[object, UsdShade.Material] = {}
 
-    def of(self, material: Material | Grain, tint: Color = WHITE, *, colored: bool = False) -> Any:
+    def of(
+        self, material: Material | Grain, tint: Color = WHITE, *, colored: bool = False
+    ) -> UsdShade.Material:
         """Return a material in a tint; `colored` if it takes its color from the mesh's vertices."""
         key = (material.key, tint, colored)
         if key not in self._made:
@@ -57,7 +62,7 @@ class Looks:
             self._made[key] = made
         return self._made[key]
 
-    def _begin(self, key: object, name: str) -> tuple[Any, Any]:
+    def _begin(self, key: object, name: str) -> tuple[UsdShade.Material, UsdShade.Shader]:
         """Return a material and its surface with the inputs that every material sets."""
         made = UsdShade.Material.Define(self._stage, f"{self._scope}/{self._names.of(key, name)}")
         surface = self._node(made, "Surface", "UsdPreviewSurface")
@@ -69,12 +74,18 @@ class Looks:
         made.CreateSurfaceOutput().ConnectToSource(output)
         return made, surface
 
-    def _node(self, made: Any, name: str, kind: str) -> Any:
+    def _node(self, made: UsdShade.Material, name: str, kind: str) -> UsdShade.Shader:
         node = UsdShade.Shader.Define(self._stage, made.GetPath().AppendChild(name))
         node.CreateIdAttr(kind)
         return node
 
-    def _picture(self, made: Any, surface: Any, material: Material | Grain, color: list[float]) -> None:
+    def _picture(
+        self,
+        made: UsdShade.Material,
+        surface: UsdShade.Shader,
+        material: Material | Grain,
+        color: list[float],
+    ) -> None:
         types = Sdf.ValueTypeNames
         reader = self._node(made, "Coordinates", "UsdPrimvarReader_float2")
         reader.CreateInput("varname", types.String).Set("st")
@@ -92,7 +103,7 @@ class Looks:
             opacity.ConnectToSource(sampler.CreateOutput("a", types.Float))
             surface.CreateInput("opacityThreshold", types.Float).Set(0.5)
 
-    def _file(self, material: Material | Grain) -> Any:
+    def _file(self, material: Material | Grain) -> Sdf.AssetPath:
         name = f"{self._pictures.of(material.texture_key, material.name)}.png"
         path = self._folder / name
         texture = material.texture
@@ -100,7 +111,7 @@ class Looks:
             path.write_bytes(_engine.encode_png(opaque(texture)))
         return Sdf.AssetPath(f"{self._base}/{name}")
 
-    def sky(self, pixels: Any) -> Any:
+    def sky(self, pixels: NDArray[np.uint8]) -> Sdf.AssetPath:
         """Write the picture of the sky; return its asset."""
         (self._folder / "sky.png").write_bytes(_engine.encode_png(pixels))
         return Sdf.AssetPath(f"{self._base}/sky.png")

@@ -3,8 +3,9 @@
 An attribute that never changes has a plain value. At its first change it gets the old value at the
 beginning and at the frame before, then a sample per change, so that nothing drifts in between.
 
-Long takes are cut into clips of a few seconds, each a file of its own that is written and forgotten, so
-memory stays bounded. The manifest names the attributes that vary and their first values.
+Long takes are cut into clips of a few seconds, each a file of its own that is written and
+forgotten, so memory stays bounded. The manifest names the attributes that vary and their first
+values.
 """
 
 from __future__ import annotations
@@ -12,11 +13,15 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from pxr import Gf, Sdf, Vt
+from numpy.typing import NDArray
+from pxr import Gf, Sdf, Usd, Vt
 
 if TYPE_CHECKING:
     from collections.abc import Callable
     from pathlib import Path
+
+Value = str | float | NDArray[Any]
+"""What a channel takes: a token, a number, or numpy numbers (rotations xyzw)."""
 
 _ARRAYS: dict[str, tuple[Any, type]] = {
     "point3f[]": (Vt.Vec3fArray, np.float32),
@@ -43,8 +48,8 @@ _SINGLES: dict[str, Callable[[Any], Any]] = {
 }
 
 
-def usd_value(attribute: Any, value: Any) -> Any:
-    """Return a number, text or numpy array as the type that the attribute holds; xyzw for rotations."""
+def usd_value(attribute: Usd.Attribute, value: Value) -> object:
+    """Return a value as the type that the attribute holds; rotations come as xyzw."""
     kind = str(attribute.GetTypeName())
     if kind in _SINGLES:
         return _SINGLES[kind](value)
@@ -55,21 +60,23 @@ def usd_value(attribute: Any, value: Any) -> Any:
 class Channel:
     """Attributes that change together."""
 
-    def __init__(self, samples: Samples, attributes: tuple[Any, ...], tolerance: float) -> None:
+    def __init__(
+        self, samples: Samples, attributes: tuple[Usd.Attribute, ...], tolerance: float
+    ) -> None:
         self.attributes, self._samples, self._tolerance = attributes, samples, tolerance
-        self._last: tuple[Any, ...] = ()
+        self._last: tuple[Value, ...] = ()
         self._from = samples.frame
         self._written = -1
-        self.first: tuple[Any, ...] = ()
+        self.first: tuple[Value, ...] = ()
         """Values before the first change."""
         self.varies = False
 
-    def begin(self, *values: Any) -> None:
+    def begin(self, *values: Value) -> None:
         """Say what was before now, since the beginning of the take."""
         self.set(*values)
         self._from = 0
 
-    def set(self, *values: Any) -> None:
+    def set(self, *values: Value) -> None:
         """Say what is now."""
         if not self._last:
             self.first = self._last = values
@@ -88,10 +95,10 @@ class Channel:
         self._last = values
         self.write(now)
 
-    def _same(self, values: tuple[Any, ...]) -> bool:
+    def _same(self, values: tuple[Value, ...]) -> bool:
         return all(map(self._equal, values, self._last))
 
-    def _equal(self, one: Any, other: Any) -> bool:
+    def _equal(self, one: Value, other: Value) -> bool:
         if isinstance(one, str):
             return bool(one == other)
         one, other = np.asarray(one), np.asarray(other)
@@ -111,7 +118,7 @@ class Channel:
 class Samples:
     """Where samples go; without a clip length, into the stage's own layer."""
 
-    def __init__(self, stage: Any, clip_frames: int | None, folder: Path) -> None:
+    def __init__(self, stage: Usd.Stage, clip_frames: int | None, folder: Path) -> None:
         self.frame = 0
         """Frame being written."""
         self.clip_start = 0
@@ -123,7 +130,7 @@ class Samples:
         self._varying: list[Channel] = []
         self._clips: list[tuple[int, str]] = []
 
-    def channel(self, *attributes: Any, tolerance: float = 0.0) -> Channel:
+    def channel(self, *attributes: Usd.Attribute, tolerance: float = 0.0) -> Channel:
         """Return a channel for attributes that change together.
 
         A change smaller than `tolerance` in every number is none.
@@ -137,7 +144,7 @@ class Samples:
             for attribute in channel.attributes:
                 attribute.ClearDefault()  # A value in the stage would hide the clips.
 
-    def write(self, attribute: Any, frame: int, value: Any) -> None:
+    def write(self, attribute: Usd.Attribute, frame: int, value: object) -> None:
         """Write one sample."""
         path = attribute.GetPath()
         if self._clip_frames is not None and path not in self._known:
@@ -180,7 +187,7 @@ class Samples:
         exported(topology, self._folder / "topology.usdc")
         exported(self._root(topology, name), path)
 
-    def _root(self, topology: Any, name: str) -> Any:
+    def _root(self, topology: Sdf.Layer, name: str) -> Sdf.Layer:
         """Return the layer that puts topology and clips together."""
         layer = Sdf.Layer.CreateAnonymous(".usda")
         layer.TransferContent(topology)
@@ -207,15 +214,15 @@ class Samples:
         return layer
 
 
-def _clip_layer() -> Any:
+def _clip_layer() -> Sdf.Layer:
     return Sdf.Layer.CreateAnonymous(".usdc")
 
 
-def _declare(layer: Any, path: Any, kind: Any) -> None:
+def _declare(layer: Sdf.Layer, path: Sdf.Path, kind: Sdf.ValueTypeName) -> None:
     Sdf.JustCreatePrimAttributeInLayer(layer, path, kind, Sdf.VariabilityVarying, False)
 
 
-def exported(layer: Any, path: Path) -> None:
+def exported(layer: Sdf.Layer, path: Path) -> None:
     """Write a layer to a file.
 
     Raises
@@ -231,5 +238,3 @@ def exported(layer: Any, path: Path) -> None:
         raise OSError(f"{path} could not be written: {error}") from None
     if not written:
         raise OSError(f"{path} could not be written: is the disk full?")
-
-

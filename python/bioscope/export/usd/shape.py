@@ -2,22 +2,24 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
-from pxr import Sdf, UsdGeom
+from pxr import Sdf, Usd, UsdGeom
 
 if TYPE_CHECKING:
     from bioscope._engine import Material, Mesh
+    from bioscope.export.usd.samples import Samples
     from bioscope.geometry.balls import Grain
     from bioscope.geometry.palette import Color
-    from bioscope.export.usd.samples import Samples
 
 
 class Shape:
     """One mesh prim; follows a mesh that is published anew."""
 
-    def __init__(self, stage: Any, path: str, mesh: Mesh, material: Material | Grain, samples: Samples) -> None:
+    def __init__(
+        self, stage: Usd.Stage, path: str, mesh: Mesh, material: Material | Grain, samples: Samples
+    ) -> None:
         self.path = path
         self.prim = UsdGeom.Mesh.Define(stage, path)
         self.prim.CreateSubdivisionSchemeAttr(UsdGeom.Tokens.none)
@@ -61,7 +63,7 @@ class Shape:
         if self._colors is not None and len(mesh.colors):
             self._colors.set(mesh.colors * np.array(self._material.color, np.float32))
 
-    def tint(self, prim: Any, mesh: Mesh, color: Color) -> None:
+    def tint(self, prim: Usd.Prim, mesh: Mesh, color: Color) -> None:
         """Write the vertex colors of a tinted copy of this mesh, if it has such."""
         if self.colored:
             primvar = _primvar(UsdGeom.Mesh(prim), "displayColor", Sdf.ValueTypeNames.Color3fArray)
@@ -69,5 +71,5 @@ class Shape:
             primvar.Set((mesh.colors * scale).tolist())
 
 
-def _primvar(prim: Any, name: str, kind: Any) -> Any:
+def _primvar(prim: UsdGeom.Mesh, name: str, kind: Sdf.ValueTypeName) -> UsdGeom.Primvar:
     return UsdGeom.PrimvarsAPI(prim).CreatePrimvar(name, kind, UsdGeom.Tokens.vertex)

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
-from pxr import Gf, UsdGeom, UsdLux
+from pxr import Gf, Usd, UsdGeom, UsdLux
 
 from bioscope.export.lights import from_minus_z, sky_picture
 from bioscope.export.names import Names
@@ -14,7 +14,7 @@ from bioscope.export.names import Names
 if TYPE_CHECKING:
     from bioscope._engine import Camera, Scene
     from bioscope.export.usd.looks import Looks
-    from bioscope.export.usd.samples import Samples
+    from bioscope.export.usd.samples import Channel, Samples
 
 _FILM_WIDTH = 0.36
 """A 36 mm film in USD's unit, a tenth of the scene's metre."""
@@ -25,10 +25,10 @@ _SUN_DEGREES = 0.53
 class Cameras:
     """The cameras of a stage."""
 
-    def __init__(self, stage: Any, path: str, samples: Samples) -> None:
+    def __init__(self, stage: Usd.Stage, path: str, samples: Samples) -> None:
         self._stage, self._path, self._samples = stage, path, samples
         self._names = Names()
-        self._made: dict[str, Any] = {}
+        self._made: dict[str, tuple[Channel, Channel]] = {}
         UsdGeom.Scope.Define(stage, path)
 
     def frame(self, cameras: dict[str, Camera]) -> None:
@@ -40,7 +40,7 @@ class Cameras:
             place.set(np.array(camera.position))
             turn.set(np.array(camera.rotation))
 
-    def _make(self, name: str, camera: Camera) -> Any:
+    def _make(self, name: str, camera: Camera) -> tuple[Channel, Channel]:
         prim = UsdGeom.Camera.Define(self._stage, f"{self._path}/{self._names.of(name, name)}")
         height = _FILM_WIDTH / _ASPECT
         angle = min(camera.field_of_view, math.radians(150))
@@ -57,7 +57,9 @@ class Cameras:
 class Lights:
     """The sun as a distant light, the sky as a dome."""
 
-    def __init__(self, stage: Any, path: str, scene: Scene, looks: Looks, samples: Samples) -> None:
+    def __init__(
+        self, stage: Usd.Stage, path: str, scene: Scene, looks: Looks, samples: Samples
+    ) -> None:
         self._sun = UsdLux.DistantLight.Define(stage, f"{path}/Sun")
         self._sun.CreateAngleAttr(_SUN_DEGREES)
         self._sun.CreateNormalizeAttr(True)

@@ -5,17 +5,21 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from bioscope.errors import MissingExtraError
-from bioscope.geometry.balls import Balls
 from bioscope.export.folder import written_folder
 from bioscope.export.names import Names
 from bioscope.files import written_whole
+from bioscope.geometry.balls import Balls
 
 if TYPE_CHECKING:
     from collections.abc import Callable
     from pathlib import Path
 
+    from pxr import Usd
+
     from bioscope._engine import Batch, Scene
     from bioscope.export.take import Frame, Take
+    from bioscope.export.usd.bodies import Bodies
+    from bioscope.export.usd.crowd import Crowd
 
 _CLIP_SECONDS = 5.0
 """Length of a value clip."""
@@ -67,7 +71,7 @@ class StageWriter:
         base = f"../{name}" if long else f"./{name}"  # As seen from the layer that has the looks.
         self._looks = Looks(self._stage, f"{_ROOT}/Looks", pictures, base)
         self._names = Names("Looks", "Cameras", "Sun", "Sky")
-        self._shown: dict[tuple[str, str], Any] = {}
+        self._shown: dict[tuple[str, str], Bodies | Crowd] = {}
         self._told: set[tuple[str, str]] = set()
         self._cameras: Any = None
         self._lights: Any = None
@@ -120,7 +124,7 @@ class StageWriter:
         shown.frame(batch)
         return key
 
-    def _new(self, batch: Batch | Balls, path: str) -> Any:
+    def _new(self, batch: Batch | Balls, path: str) -> Bodies | Crowd:
         from bioscope.export.usd.bodies import Bodies
         from bioscope.export.usd.crowd import Crowd
 
@@ -133,7 +137,7 @@ class StageWriter:
         return Bodies(*parts) if alone and not many else Crowd(*parts)
 
     @staticmethod
-    def _follows(batch: Batch | Balls, shown: Any) -> bool:
+    def _follows(batch: Batch | Balls, shown: Bodies | Crowd) -> bool:
         """Whether what shows a batch can show its present mesh."""
         return bool(getattr(shown, "mesh_key", batch.mesh.key) == batch.mesh.key)
 
@@ -147,7 +151,7 @@ class StageWriter:
             self._say(f"{name}: {notice}")
 
 
-def _stage(take: Take) -> Any:
+def _stage(take: Take) -> Usd.Stage:
     """Return an empty stage with its units, axes and times."""
     from pxr import Usd, UsdGeom
 
