@@ -82,7 +82,7 @@ $(STAMPS)/engine: $(STAMPS)/tools $(RUST_SOURCES)
 
 $(STAMPS)/node: web/package-lock.json
 	@mkdir -p $(STAMPS)
-	cd web && npm ci --silent --no-audit --no-fund
+	cd web && npm install --no-save --silent --no-audit --no-fund
 	@touch $@
 
 $(STAMPS)/page: $(STAMPS)/node $(WEB_SOURCES)
