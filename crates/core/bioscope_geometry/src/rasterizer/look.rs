@@ -10,7 +10,7 @@ use super::cover::{NOBODY, Sheet, Tests};
 use super::lens::{Lens, Seen, Stand};
 use super::light::Eye;
 use super::prepare::{Prepared, Thing};
-use super::shade::Shader;
+use super::shade::{Patch, Shader};
 use super::shafts::add_shafts;
 use super::spots::{Spot, spots};
 use super::view::{Strip, View};
@@ -46,6 +46,13 @@ struct Look<'a> {
     samples: usize,
     draws: Vec<Draw>,
     spots: Vec<Spot>,
+}
+
+/// The patch that was colored last.
+struct Last<'a> {
+    owner: u32,
+    id: Id,
+    patch: Patch<'a>,
 }
 
 /// Memory that is used again and again.
@@ -220,9 +227,9 @@ impl Look<'_> {
                 continue;
             }
             let corners = corners.map(|corner| corner.point);
+            let patch = self.shader.bare_patch(thing, mesh, *triangle, corners);
             let solid = |column: usize, row: usize| {
-                let ray = self.lens.ray(column, row).unwrap_or(Vec3::NEG_Z);
-                self.shader.solid(thing, mesh, *triangle, corners, ray)
+                self.lens.ray(column, row).is_some_and(|ray| self.shader.solid(&patch, ray))
             };
             sheet.cover(self.lens, &window, &tests, owner, Some(&solid));
         }
@@ -251,6 +258,7 @@ impl Look<'_> {
     /// One sample per pixel.
     #[inline(always)]
     fn color(&self, strip: &mut Strip, sheet: &Sheet) {
+        let mut last = None;
         for row in strip.rows[0]..strip.rows[1] {
             let line = (row - strip.rows[0]) * sheet.stride();
             for column in 0..strip.width {
@@ -258,7 +266,7 @@ impl Look<'_> {
                 let (owner, nearness) =
                     (sheet.owners()[line + column], sheet.nearness()[line + column]);
                 let index = (row - strip.rows[0]) * strip.width + column;
-                let (color, depth, identity) = self.sample(owner, nearness, ray);
+                let (color, depth, identity) = self.sample(owner, nearness, ray, &mut last);
                 strip.color[index] = channels(color);
                 strip.depth[index] = depth;
                 strip.identity[index] = identity;
@@ -270,6 +278,7 @@ impl Look<'_> {
     #[inline(always)]
     fn color_smoothly(&self, strip: &mut Strip, sheet: &Sheet) {
         let (owners, nearness, stride) = (sheet.owners(), sheet.nearness(), sheet.stride());
+        let mut last = None;
         for row in strip.rows[0]..strip.rows[1] {
             let first = (row - strip.rows[0]) * 2 * stride;
             for column in 0..strip.width {
@@ -277,7 +286,8 @@ impl Look<'_> {
                 let owners = four.map(|place| owners[place]);
                 let nearness = four.map(|place| nearness[place]);
                 let index = (row - strip.rows[0]) * strip.width + column;
-                let (color, depth, identity) = self.blend([column, row], owners, nearness);
+                let (color, depth, identity) =
+                    self.blend([column, row], owners, nearness, &mut last);
                 strip.color[index] = channels(color);
                 strip.depth[index] = depth;
                 strip.identity[index] = identity;
@@ -287,7 +297,13 @@ impl Look<'_> {
 
     /// Mean color of a pixel's four samples; depth and identity of the thing that most of them see.
     #[inline(always)]
-    fn blend(&self, pixel: [usize; 2], owners: [u32; 4], nearness: [f32; 4]) -> (Rgb, f32, Id) {
+    fn blend<'a>(
+        &'a self,
+        pixel: [usize; 2],
+        owners: [u32; 4],
+        nearness: [f32; 4],
+        last: &mut Option<Last<'a>>,
+    ) -> (Rgb, f32, Id) {
         let mut shares = [0.25f32; 4];
         for sample in 1..4 {
             let same = |other: &usize| {
@@ -308,7 +324,8 @@ impl Look<'_> {
             }
             let place = [pixel[0] * 2 + sample % 2, pixel[1] * 2 + sample / 2];
             let Some(ray) = self.lens.ray(place[0], place[1]) else { continue };
-            let (radiance, depth, identity) = self.sample(owners[sample], nearness[sample], ray);
+            let (radiance, depth, identity) =
+                self.sample(owners[sample], nearness[sample], ray, last);
             color += radiance * shares[sample];
             if shares[sample] > best.0 {
                 best = (shares[sample], depth, identity);
@@ -335,19 +352,31 @@ impl Look<'_> {
         &self.draws[self.draws.partition_point(|draw| draw.first <= owner) - 1]
     }
 
-    /// Color, depth and identity of a sample, given its unit ray in camera space.
+    /// Color, depth and identity of a sample, given its unit ray in camera space. `last` is the patch that
+    /// was colored last, often the one that is needed next.
     #[inline(always)]
-    fn sample(&self, owner: u32, nearness: f32, ray: Vec3) -> (Rgb, f32, Id) {
+    fn sample<'a>(
+        &'a self,
+        owner: u32,
+        nearness: f32,
+        ray: Vec3,
+        last: &mut Option<Last<'a>>,
+    ) -> (Rgb, f32, Id) {
         let direction = self.shader.stand.outward(ray);
         if owner == NOBODY {
             return (self.shader.background(direction), f32::INFINITY, 0);
         }
         let along = if self.lens.round.is_some() { 1.0 } else { -ray.z };
         let distance = 1.0 / (nearness * along);
-        let draw = self.draw_of(owner);
-        let triangle = (owner - draw.first) as usize;
-        let color = self.shader.surface(&draw.thing, draw.level, triangle, direction, distance);
-        (color, distance, draw.thing.id)
+        if last.as_ref().is_none_or(|last| last.owner != owner) {
+            let draw = self.draw_of(owner);
+            let triangle = (owner - draw.first) as usize;
+            let patch = self.shader.patch(&draw.thing, draw.level, triangle);
+            *last = Some(Last { owner, id: draw.thing.id, patch });
+        }
+        let Some(last) = last else { return (Rgb::ZERO, f32::INFINITY, 0) };
+        let color = self.shader.surface(&last.patch, direction, distance);
+        (color, distance, last.id)
     }
 }
 

@@ -18,52 +18,62 @@ pub(crate) struct Shader<'a> {
     pub pitch: f32,
 }
 
-/// A triangle as one eye sees it.
-struct Corner3 {
-    /// Corners relative to the eye.
+/// A triangle as one eye sees it, ready for many of its points.
+pub(crate) struct Patch<'a> {
+    material: &'a Material,
+    picture: Option<&'a Mipmap>,
+    /// Places relative to the eye.
     corners: [Vec3; 3],
+    normals: [Vec3; 3],
+    uvs: [[f32; 2]; 3],
+    /// Color of the material times the instance's tint.
+    color: Rgb,
+    /// Vertex colors that multiply it.
+    colors: Option<[Vec3; 3]>,
+    /// Normals of the planes through the eye and the side opposite each corner.
+    planes: [Vec3; 3],
     /// Twice the area, along the geometric normal.
     area: Vec3,
-    /// Shares of the corners at the point that is seen.
-    shares: [f32; 3],
+    /// Twice the area in texels.
+    texels: f32,
 }
 
-impl Corner3 {
+/// Shares of a patch's corners at one of its points.
+#[derive(Clone, Copy)]
+struct Shares([f32; 3]);
+
+impl Shares {
     #[inline(always)]
-    fn new(corners: [Vec3; 3], direction: Vec3) -> Self {
-        let [a, b, c] = corners;
-        let volumes =
-            [direction.dot(b.cross(c)), direction.dot(c.cross(a)), direction.dot(a.cross(b))];
+    fn mix(&self, [a, b, c]: [Vec3; 3]) -> Vec3 {
+        a * self.0[0] + b * self.0[1] + c * self.0[2]
+    }
+
+    #[inline(always)]
+    fn mix_uv(&self, [a, b, c]: [[f32; 2]; 3]) -> [f32; 2] {
+        [0, 1].map(|axis| a[axis] * self.0[0] + b[axis] * self.0[1] + c[axis] * self.0[2])
+    }
+}
+
+impl Patch<'_> {
+    /// Shares of the corners where a ray meets the patch.
+    #[inline(always)]
+    fn shares(&self, direction: Vec3) -> Shares {
+        let volumes = self.planes.map(|plane| direction.dot(plane));
         let whole = volumes[0] + volumes[1] + volumes[2];
         let inverse = if whole == 0.0 { 0.0 } else { 1.0 / whole };
         let first = (volumes[0] * inverse).clamp(0.0, 1.0);
         let second = (volumes[1] * inverse).clamp(0.0, 1.0 - first);
-        Self { corners, area: (b - a).cross(c - a), shares: [first, second, 1.0 - first - second] }
+        Shares([first, second, 1.0 - first - second])
     }
 
+    /// Color and opacity of the texture there; white without one. `pitch` is the angle between pixels.
     #[inline(always)]
-    fn mix(&self, [a, b, c]: [Vec3; 3]) -> Vec3 {
-        a * self.shares[0] + b * self.shares[1] + c * self.shares[2]
-    }
-
-    /// Texture coordinates, and how many texels a pixel of this angular size takes in.
-    #[inline(always)]
-    fn texel(
-        &self,
-        picture: &Mipmap,
-        uvs: [[f32; 2]; 3],
-        direction: Vec3,
-        pitch: f32,
-    ) -> ([f32; 2], f32) {
-        let [a, b, c] = uvs;
-        let mix = |axis: usize| {
-            a[axis] * self.shares[0] + b[axis] * self.shares[1] + c[axis] * self.shares[2]
-        };
-        let spread = (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]);
+    fn texel(&self, shares: &Shares, direction: Vec3, pitch: f32, smooth: bool) -> [f32; 4] {
+        let Some(picture) = self.picture else { return [1.0; 4] };
         let facing = self.area.dot(direction).abs().max(1e-12);
-        let distance = self.mix(self.corners).length_squared();
-        let footprint = (distance * spread.abs() * picture.texels() / facing).sqrt() * pitch;
-        ([mix(0), mix(1)], footprint)
+        let square = shares.mix(self.corners).length_squared();
+        let footprint = (square * self.texels / facing).sqrt() * pitch;
+        picture.read(shares.mix_uv(self.uvs), footprint, smooth)
     }
 }
 
@@ -74,43 +84,68 @@ fn at<T: Copy>(values: &[T], triangle: [u32; 3]) -> [T; 3] {
 }
 
 impl<'a> Shader<'a> {
-    /// What arrives at the eye from a point of a triangle, at `distance` along a unit direction.
+    /// A triangle of a thing at a level of detail, ready to be colored.
     #[inline(always)]
-    pub fn surface(
-        &self,
-        thing: &Thing,
-        level: usize,
-        triangle: usize,
-        direction: Vec3,
-        distance: f32,
-    ) -> Rgb {
+    pub fn patch(&self, thing: &Thing, level: usize, triangle: usize) -> Patch<'a> {
         let prepared = self.prepared;
         let posed = prepared.posed(thing, level);
         let mesh: &Mesh = &prepared.part(thing).levels[level].1;
-        let material: &Material = &prepared.scene.batches[thing.batch as usize].material;
         let triangle = mesh.triangles[triangle];
-        let eye = self.stand.eye;
-        let seen = Corner3::new(at(&posed.points, triangle).map(|corner| corner - eye), direction);
-        let mut normal = unit(seen.mix(at(&posed.normals, triangle)));
-        if seen.area.dot(direction) > 0.0 {
+        let places = at(&posed.points, triangle).map(|corner| corner - self.stand.eye);
+        let mut patch = self.bare_patch(thing, mesh, triangle, places);
+        patch.normals = at(&posed.normals, triangle);
+        patch.color = rgb(patch.material.color) * prepared.tint(thing);
+        if !mesh.colors.is_empty() {
+            patch.colors = Some(at(&mesh.colors, triangle).map(Vec3::from));
+        }
+        patch
+    }
+
+    /// A triangle with its texture only; `corners` are relative to the eye, in any axes.
+    #[inline(always)]
+    pub fn bare_patch(
+        &self,
+        thing: &Thing,
+        mesh: &Mesh,
+        triangle: [u32; 3],
+        corners: [Vec3; 3],
+    ) -> Patch<'a> {
+        let picture = self.prepared.pictures[thing.batch as usize].as_deref();
+        let picture = picture.filter(|_| !mesh.uvs.is_empty());
+        let uvs = if picture.is_some() { at(&mesh.uvs, triangle) } else { [[0.0; 2]; 3] };
+        let [[u, v], second, third] = uvs;
+        let spread = (second[0] - u) * (third[1] - v) - (third[0] - u) * (second[1] - v);
+        let [a, b, c] = corners;
+        Patch {
+            material: &self.prepared.scene.batches[thing.batch as usize].material,
+            picture,
+            corners,
+            normals: [Vec3::Y; 3],
+            uvs,
+            color: Rgb::ONE,
+            colors: None,
+            planes: [b.cross(c), c.cross(a), a.cross(b)],
+            area: (b - a).cross(c - a),
+            texels: spread.abs() * picture.map_or(0.0, Mipmap::texels),
+        }
+    }
+
+    /// What arrives at the eye from a point of a patch, at `distance` along a unit direction.
+    #[inline(always)]
+    pub fn surface(&self, patch: &Patch, direction: Vec3, distance: f32) -> Rgb {
+        let shares = patch.shares(direction);
+        let mut normal = unit(shares.mix(patch.normals));
+        if patch.area.dot(direction) > 0.0 {
             normal = -normal;
         }
-        let mut albedo = rgb(material.color) * prepared.tint(thing);
-        if !mesh.colors.is_empty() {
-            albedo *= rgb(seen.mix(at(&mesh.colors, triangle).map(Vec3::from)).to_array());
+        let smooth = self.prepared.options.smooth;
+        let [red, green, blue, _] = patch.texel(&shares, direction, self.pitch, smooth);
+        let mut albedo = patch.color * rgb([red, green, blue]);
+        if let Some(colors) = patch.colors {
+            albedo *= rgb(shares.mix(colors).to_array());
         }
-        if let Some(picture) = self.picture(thing, mesh) {
-            let (uv, footprint) =
-                seen.texel(picture, at(&mesh.uvs, triangle), direction, self.pitch);
-            let [red, green, blue, _] = picture.read(uv, footprint, prepared.options.smooth);
-            albedo *= rgb([red, green, blue]);
-        }
-        let finish = Finish {
-            albedo,
-            specular: material.specular,
-            roughness: material.roughness,
-            translucency: material.translucency,
-        };
+        let Material { specular, roughness, translucency, .. } = *patch.material;
+        let finish = Finish { albedo, specular, roughness, translucency };
         self.lit(&finish, normal, direction, distance)
     }
 
@@ -164,25 +199,9 @@ impl<'a> Shader<'a> {
         self.arriving(direction, f32::INFINITY, radiance)
     }
 
-    /// Whether a thing's texture is opaque where a ray meets its triangle. `corners` are relative to
-    /// the eye, in the same axes as the ray.
-    pub fn solid(
-        &self,
-        thing: &Thing,
-        mesh: &Mesh,
-        triangle: [u32; 3],
-        corners: [Vec3; 3],
-        ray: Vec3,
-    ) -> bool {
-        let Some(picture) = self.picture(thing, mesh) else { return true };
-        let seen = Corner3::new(corners, ray);
-        let (uv, footprint) = seen.texel(picture, at(&mesh.uvs, triangle), ray, self.pitch);
-        picture.read(uv, footprint, self.prepared.options.smooth)[3] >= 0.5
-    }
-
-    #[inline(always)]
-    fn picture(&self, thing: &Thing, mesh: &Mesh) -> Option<&'a Mipmap> {
-        let picture = self.prepared.pictures[thing.batch as usize].as_deref();
-        picture.filter(|_| !mesh.uvs.is_empty())
+    /// Whether the texture is opaque where a ray meets a patch.
+    pub fn solid(&self, patch: &Patch, ray: Vec3) -> bool {
+        let shares = patch.shares(ray);
+        patch.texel(&shares, ray, self.pitch, self.prepared.options.smooth)[3] >= 0.5
     }
 }
