@@ -289,3 +289,20 @@ def test_the_water_looks_as_in_the_preview():
         assert np.abs(one - other).mean() < 12
         ripples = np.corrcoef(one[..., 1].ravel(), other[..., 1].ravel())[0, 1]
         assert ripples > 0.8
+
+
+def test_water_is_as_long_as_the_way_through_a_hole():
+    pixels = np.full((8, 8, 4), 255, np.uint8)
+    pixels[:, ::2, 3] = 0
+    lattice = bio.Material("lattice", texture=pixels, cutout=True)
+    holes = np.full((2, 2, 4), 255, np.uint8)
+    holes[..., 3] = 0
+    nothing = bio.Material("nothing", texture=holes, cutout=True)
+    wall = ("wall", board(40, 40), WHITE, {"positions": [[0, -3, -9]], "alive": False})
+    before = {"positions": [[0, -3, -2]], "alive": False}
+    view = camera((0, -3, 0), (0, -3, -1))
+    free = picture([wall], view, surface=0.0)
+    through = picture([wall, ("net", board(9, 9), nothing, before)], view, surface=0.0)
+    assert np.abs(free - through).mean() < 3
+    netted = picture([wall, ("net", board(9, 9), lattice, before)], view, surface=0.0)
+    assert np.abs(free - netted).mean() > 5

@@ -108,7 +108,8 @@ class PathRenderer:
         """Render the sun, its bounces and the sky."""
         mitsuba = self._mitsuba
         under = light.depth(camera.position[1]) > 0
-        entries = {"type": "scene", **self._staging.shapes(scene)}
+        solid, holed = self._staging.shapes(scene)
+        entries = {"type": "scene", **solid, **holed}
         entries["the sun"] = self._sun(light, under)
         entries["the sky"] = self._sky(light, under)
         entries["the lamp"] = _lamp(camera)
@@ -116,7 +117,7 @@ class PathRenderer:
         staged = mitsuba.load_dict(entries)
         values = mitsuba.traverse(staged)
         quarter, half = max(1, self._samples // 4), max(1, self._samples // 2)
-        distance = self._pass(staged, _DISTANCE, quarter, scene.tick)
+        distance = self._distance(entries, (solid, holed), quarter, scene.tick)
         self._choose(values, "lamp", light)
         colors = self._pass(staged, _DIRECT, quarter, scene.tick)
         self._choose(values, "sun", light)
@@ -127,6 +128,26 @@ class PathRenderer:
         eye = np.array(camera.position, np.float32)
         limits = float(light.sun_color.max()) / math.pi, self._sky_peak
         return Seen(eye, directions, (distance, colors, direct, bounced, sky), limits)
+
+    def _distance(
+        self, entries: dict[str, Any], shapes: tuple[dict[str, Any], ...], samples: int, seed: int
+    ) -> Floats:
+        """Return the distance of what each part of a pixel sees, 0 for nothing.
+
+        Mitsuba measures to where holes would be, so things with holes are measured by themselves.
+        """
+        around = {name: entries[name] for name in ("type", "the camera", "the lamp")}
+        found = []
+        for own in shapes:
+            staged = self._mitsuba.load_dict({**around, **own})
+            measured = self._pass(staged, _DISTANCE, samples, seed)
+            shown = np.maximum(measured[..., 3], 1e-6)
+            found.append(measured[..., 0] / shown)
+        solid, holed = found
+        if not shapes[1]:
+            return solid
+        there = self._pass(staged, _DIRECT, samples, seed)[..., 3] > 0.5
+        return np.where(there & ((holed < solid) | (solid == 0)), holed, solid)
 
     def _pass(self, staged: Any, integrator: dict[str, Any], samples: int, seed: int) -> Floats:
         loaded = self._mitsuba.load_dict(integrator)
@@ -243,7 +264,7 @@ class Seen:
         distance, lamp, direct, bounced, sky = passes
         self.cover = np.clip(direct[..., 3], 0.0, 1.0)
         """Share of the part that sees any thing."""
-        self.distance = distance[..., 0] / np.maximum(distance[..., 3], 1e-6)
+        self.distance = distance
         self.place = eye + directions * self.distance[..., None]
         normals = facing(self.place)
         slant = np.abs(np.sum(normals * directions, axis=-1))

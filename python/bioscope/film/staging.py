@@ -9,8 +9,8 @@ import numpy as np
 from bioscope.film.surfaces import COLOR, LARGEST, Surfaces, vertex_factor
 from bioscope.geometry.balls import Balls
 from bioscope.geometry.palette import Palette
-from bioscope.geometry.skinning import bent
-from bioscope.geometry.transforms import matrices, rotated
+from bioscope.geometry.skinning import bent, units
+from bioscope.geometry.transforms import composed, matrices
 
 if TYPE_CHECKING:
     from types import ModuleType
@@ -58,18 +58,20 @@ class Staging:
         self._kept: dict[object, Any] = {}
         self._used: dict[object, Any] = {}
 
-    def shapes(self, scene: Scene) -> dict[str, Any]:
-        """Return all shapes of a scene by name."""
+    def shapes(self, scene: Scene) -> tuple[dict[str, Any], dict[str, Any]]:
+        """Return the shapes of a scene by name: the solid ones, and those with holes."""
         self._used = {}
-        found: dict[str, Any] = {}
+        solid: dict[str, Any] = {}
+        holed: dict[str, Any] = {}
         for batch in scene.batches:
             if len(batch.ids) and len(batch.mesh.triangles):
-                self._add(found, "batch", batch)
+                holes = batch.material.cutout and batch.material.texture is not None
+                self._add(holed if holes else solid, "batch", batch)
         for points in scene.points:
             if len(points.ids):
-                self._add(found, "points", Balls(points))
+                self._add(solid, "points", Balls(points))
         self._kept = self._used
-        return found
+        return solid, holed
 
     def _add(self, found: dict[str, Any], kind: str, batch: Batch | Balls) -> None:
         palette = self._palettes.setdefault((kind, batch.name), Palette(batch, limit=8))
@@ -87,7 +89,8 @@ class Staging:
         """Return the shapes of the instances of one color."""
         mesh = batch.mesh
         if len(batch.poses):
-            forms = [self._placed(mesh, batch.transforms[row], batch.poses[row]) for row in rows]
+            poses = composed(batch.transforms[rows, None], batch.poses[rows])
+            forms = [Form(mesh, *bent(mesh, pose)) for pose in poses]
             return {name: self._mesh(Form.joined(forms), batch, tint)}
         places = np.ascontiguousarray(batch.transforms[rows])
         if len(rows) * len(mesh.positions) <= _MOST_MERGED:
@@ -118,13 +121,10 @@ class Staging:
         return self._mitsuba.load_dict({"type": "shapegroup", "shape": child})
 
     @staticmethod
-    def _placed(mesh: Mesh, place: Floats, pose: Floats | None = None) -> Form:
-        positions, normals = np.asarray(mesh.positions), np.asarray(mesh.normals)
-        if pose is not None:
-            positions, normals = bent(mesh, pose)
+    def _placed(mesh: Mesh, place: Floats) -> Form:
         matrix = matrices(place)
-        moved = positions @ matrix[:, :3].T + matrix[:, 3]
-        return Form(mesh, moved, rotated(place[4:], normals))
+        moved = mesh.positions @ matrix[:, :3].T + matrix[:, 3]
+        return Form(mesh, moved, units(mesh.normals @ matrix[:, :3].T))
 
     def _mesh(self, form: Form, batch: Batch | Balls, tint: Color) -> Any:
         """Return a Mitsuba mesh with the batch's material in a tint."""

@@ -13,6 +13,8 @@ if TYPE_CHECKING:
 
     from bioscope._engine import Mesh
 
+    Floats = NDArray[np.floating]
+
 
 def rest_pose(mesh: Mesh) -> NDArray[np.float32]:
     """Return the joints' transforms at rest in mesh space, (joints, 8)."""
@@ -24,7 +26,7 @@ def parents(mesh: Mesh) -> list[int | None]:
     return [parent for _, parent, _ in mesh.joints]
 
 
-def bent(mesh: Mesh, pose: NDArray[np.float32]) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+def bent(mesh: Mesh, pose: Floats) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
     """Return positions and unit normals (vertices, 3) of a mesh bent to a pose.
 
     Parameters
@@ -32,12 +34,16 @@ def bent(mesh: Mesh, pose: NDArray[np.float32]) -> tuple[NDArray[np.float32], ND
     mesh
         A mesh with joints.
     pose
-        Transforms of its joints in mesh space, (joints, 8).
+        Transforms of its joints, (joints, 8): in mesh space, or any space the result is wanted in.
     """
-    moves = matrices(composed(pose, inverse(rest_pose(mesh))))
-    blend = np.einsum("vk,vkrc->vrc", mesh.joint_weights, moves[mesh.joint_indices])
-    positions = np.einsum("vrc,vc->vr", blend[:, :, :3], mesh.positions) + blend[:, :, 3]
-    normals = np.einsum("vrc,vc->vr", blend[:, :, :3], mesh.normals)
+    moves = matrices(composed(pose, inverse(rest_pose(mesh)))).reshape(len(pose), 12)
+    blend = np.zeros((len(mesh.positions), 12), moves.dtype)
+    for indices, weights in zip(mesh.joint_indices.T, mesh.joint_weights.T, strict=True):
+        if weights.any():
+            blend += moves[indices] * weights[:, None]
+    rows = blend.reshape(-1, 3, 4)
+    positions = np.einsum("vrc,vc->vr", rows[:, :, :3], mesh.positions) + rows[:, :, 3]
+    normals = np.einsum("vrc,vc->vr", rows[:, :, :3], mesh.normals)
     return positions.astype(np.float32), units(normals)
 
 

@@ -18,9 +18,16 @@ IDENTITY = (0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
 def rotated(rotations: Floats, vectors: Floats) -> Floats:
     """Return vectors (…, 3) turned by unit quaternions (…, 4) xyzw."""
     axis, real = rotations[..., :3], rotations[..., 3:]
-    twice = 2.0 * np.cross(axis, vectors)
-    turned: Floats = vectors + real * twice + np.cross(axis, twice)
+    twice = 2.0 * _cross(axis, vectors)
+    turned: Floats = vectors + real * twice + _cross(axis, twice)
     return turned
+
+
+def _cross(a: Floats, b: Floats) -> Floats:
+    """Return the cross product of vectors (…, 3); quicker than numpy's for few."""
+    x, y, z = a[..., 0], a[..., 1], a[..., 2]
+    u, v, w = b[..., 0], b[..., 1], b[..., 2]
+    return np.stack([y * w - z * v, z * u - x * w, x * v - y * u], axis=-1)
 
 
 def product(first: Floats, second: Floats) -> Floats:
@@ -28,7 +35,7 @@ def product(first: Floats, second: Floats) -> Floats:
     a, b = first[..., :3], second[..., :3]
     p, q = first[..., 3:], second[..., 3:]
     real = p * q - np.sum(a * b, axis=-1, keepdims=True)
-    return np.concatenate([p * b + q * a + np.cross(a, b), real], axis=-1)
+    return np.concatenate([p * b + q * a + _cross(a, b), real], axis=-1)
 
 
 def conjugate(rotations: Floats) -> Floats:
