@@ -150,7 +150,7 @@ def test_publishing_nonsense_is_refused_and_named():
             scene.points("wrong", ids=self.ids, positions=places, radii=np.ones(2, np.float32))
 
     world = bio.World(seed=1)
-    with pytest.raises(ValueError, match="positions = 3 rows.*2 rows"):
+    with pytest.raises(ValueError, match=r"positions = 3 rows.*2 rows"):
         world.add(Wrong())
 
 
@@ -162,3 +162,21 @@ def test_meshes_check_their_arrays():
         bio.Mesh(corners, np.array([[0, 1, 3]], np.uint32))
     with pytest.raises(ValueError, match="finite"):
         bio.Mesh(corners * np.float32("nan"), np.array([[0, 1, 2]], np.uint32))
+
+
+def test_a_batch_of_nobody_has_empty_arrays():
+    class Nobody(bio.Population):
+        def publish(self, scene):
+            mesh = bio.Mesh(np.eye(3, dtype=np.float32), np.array([[0, 1, 2]], np.uint32))
+            none = np.empty((0, 3), np.float32)
+            scene.instances(
+                "nobody", mesh, bio.Material(), ids=np.empty(0, np.uint32), positions=none
+            )
+
+    world = bio.World(seed=1)
+    world.add(Nobody())
+    (batch,) = world.scene.batches
+    assert batch.positions.shape == batch.velocities.shape == (0, 3)
+    assert batch.transforms.shape == (0, 8)
+    assert batch.rotations.shape == (0, 4)
+    assert batch.scales.shape == (0,)

@@ -12,8 +12,8 @@ mod flock;
 mod lsystem;
 mod material;
 mod mesh;
-mod png;
 mod mind;
+mod png;
 mod population;
 mod publication;
 mod rasterizer;
@@ -46,9 +46,9 @@ mod _engine {
     #[pymodule_export]
     use super::mesh::Mesh;
     #[pymodule_export]
-    use super::png::encode_png;
-    #[pymodule_export]
     use super::mind::fish_with_minds;
+    #[pymodule_export]
+    use super::png::encode_png;
     #[pymodule_export]
     use super::population::{Resident, resident};
     #[pymodule_export]

@@ -133,7 +133,13 @@ fn set(turtle: &mut TurtleOptions, name: &str, value: &Bound<'_, PyAny>) -> PyRe
         "susceptibility" => turtle.susceptibility = value.extract()?,
         _ => {
             let known = [
-                "step", "angle", "width", "width_step", "color", "slash_rolls_right", "tropism",
+                "step",
+                "angle",
+                "width",
+                "width_step",
+                "color",
+                "slash_rolls_right",
+                "tropism",
                 "susceptibility",
             ];
             return Err(to_python(Error::Unknown {

@@ -76,8 +76,8 @@ impl Rasterizer {
         check_size(width, height)?;
         let scene = scene.get().scene.clone();
         let camera = camera.get().camera;
-        let pixels = py
-            .detach(|| self.prepared(scene).look(&camera, width, height).developed(exposure));
+        let pixels =
+            py.detach(|| self.prepared(scene).look(&camera, width, height).developed(exposure));
         pixels.into_pyarray(py).reshape([height, width, 3])
     }
 }

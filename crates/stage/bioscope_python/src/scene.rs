@@ -165,6 +165,9 @@ impl Batch {
     #[getter]
     fn scales<'py>(slf: &Bound<'py, Self>) -> PyResult<Array1<'py, f32>> {
         let transforms = &slf.get().get().transforms;
+        if transforms.is_empty() {
+            return arrays::view(slf.as_any(), &[], [0]);
+        }
         let numbers = numbers(transforms);
         let from = numbers.get(3..).unwrap_or_default();
         arrays::view(slf.as_any(), from, [transforms.len()].strides([8]))
@@ -198,6 +201,9 @@ fn columns<'py>(
     first: usize,
     width: usize,
 ) -> PyResult<Array2<'py, f32>> {
+    if transforms.is_empty() {
+        return arrays::view(owner.as_any(), &[], [0, width]);
+    }
     let from = numbers(transforms).get(first..).unwrap_or_default();
     arrays::view(owner.as_any(), from, [transforms.len(), width].strides([8, 1]))
 }
