@@ -1,4 +1,4 @@
-"""Write the pages of docs/reproductions from their tables, the tests' markers and bench/results.json.
+"""Write docs/reproductions from their tables, the tests' markers and bench/results.json.
 
 Each NAME.toml lists a source's rows; the tests that prove a row are found by their
 `@pytest.mark.capability` markers, measured figures by their names in the results of `make bench`.
@@ -39,13 +39,28 @@ def figures() -> dict[str, str]:
 
 def page(table: dict, proofs: dict[str, list[str]], measured: dict[str, str]) -> str:
     """Return the page of one source."""
-    lines = [f"# {table['title']}", "", f"Source: {table['source']}.", "", table["text"].strip(), ""]
+    lines = [
+        f"# {table['title']}",
+        "",
+        f"Source: {table['source']}.",
+        "",
+        table["text"].strip(),
+        "",
+    ]
     lines += ["| id | what | published | proved by | measured |", "|---|---|---|---|---|"]
     for row in table["row"]:
         tests = "<br>".join(f"`{one}`" for one in proofs.get(row["id"], [])) or "not yet"
-        values = [f"{name}: {measured[name]}" for name in row.get("figures", []) if name in measured]
+        values = [
+            f"{name}: {measured[name]}" for name in row.get("figures", []) if name in measured
+        ]
         remark = row.get("remark", "")
-        cells = (row["id"], row["about"], row["published"], tests, "; ".join([*values, remark]).strip("; "))
+        cells = (
+            row["id"],
+            row["about"],
+            row["published"],
+            tests,
+            "; ".join([*values, remark]).strip("; "),
+        )
         lines.append("| " + " | ".join(cells) + " |")
     return "\n".join(lines) + "\n"
 

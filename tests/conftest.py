@@ -101,14 +101,14 @@ def bioscope(tmp_path):
     return run
 
 
-SCRIPT = '''
+SCRIPT = """
 import sys
 sys.path.insert(0, {tests!r})
 from conftest import small_world
 
 def world(seed):
     return small_world(seed)
-'''
+"""
 
 
 @pytest.fixture

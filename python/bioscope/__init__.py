@@ -7,7 +7,7 @@
 60
 """
 
-from bioscope._engine import VERSION as __version__
+from bioscope._engine import VERSION as __version__  # noqa: N811 - the name Python uses
 from bioscope._engine import Batch, Camera, Material, Mesh, Points, Publication, Scene
 from bioscope._engine import View as WorldView
 from bioscope.errors import BioscopeError
@@ -55,13 +55,12 @@ __all__ = [
     "FishSchool",
     "Ground",
     "Habitat",
+    "Interpretation",
+    "LSystem",
     "Material",
     "Mesh",
     "Mind",
-    "LSystem",
     "ModuleString",
-    "Interpretation",
-    "Turtle",
     "Parameter",
     "Plankton",
     "Plants",
@@ -73,6 +72,7 @@ __all__ = [
     "RoamingFish",
     "Rocks",
     "Scene",
+    "Turtle",
     "View",
     "World",
     "WorldView",

@@ -211,7 +211,9 @@ def export(
 @app.command()
 def derive(
     file: Annotated[Path, typer.Argument(metavar="FILE.l", help="A model.")],
-    steps: Annotated[int | None, typer.Option(min=0, help="As the file says, if not given.")] = None,
+    steps: Annotated[
+        int | None, typer.Option(min=0, help="As the file says, if not given.")
+    ] = None,
     seed: Annotated[int, typer.Option(min=0, max=2**64 - 1)] = 1,
     homomorphism: Annotated[
         bool, typer.Option("--homomorphism", help="The string as the turtle reads it.")
@@ -248,9 +250,12 @@ def derive(
 def grow(
     file: Annotated[Path, typer.Argument(metavar="FILE.l", help="A model.")],
     output: Annotated[
-        Path, typer.Option("-o", "--output", metavar="FILE.glb|.obj|.usdc|.png", help="What to write.")
+        Path,
+        typer.Option("-o", "--output", metavar="FILE.glb|.obj|.usdc|.png", help="What to write."),
     ],
-    steps: Annotated[int | None, typer.Option(min=0, help="As the file says, if not given.")] = None,
+    steps: Annotated[
+        int | None, typer.Option(min=0, help="As the file says, if not given.")
+    ] = None,
     seed: Annotated[int, typer.Option(min=0, max=2**64 - 1)] = 1,
 ) -> None:
     """Grow a plant and write its shape.
@@ -266,7 +271,8 @@ def grow(
 @app.command()
 def bench(
     names: Annotated[
-        list[str] | None, typer.Argument(metavar="[NAME…]", help="Beginnings of names; all if none.")
+        list[str] | None,
+        typer.Argument(metavar="[NAME…]", help="Beginnings of names; all if none."),
     ] = None,
     json: Annotated[
         Path | None, typer.Option("--json", metavar="FILE", help="Store the lines here too.")

@@ -16,9 +16,9 @@ Vector = tuple[float, float, float]
 class Flock:
     """A flock by C. W. Reynolds, "Flocks, herds, and schools", SIGGRAPH 1987.
 
-    Separation, velocity matching and centering with inverse-power weights in a sphere, obstacles steered
-    round first of all, requests combined by prioritized allocation of a limited acceleration, geometric
-    flight with banking.
+    Separation, velocity matching and centering with inverse-power weights in a sphere, obstacles
+    steered round first of all, requests combined by prioritized allocation of a limited
+    acceleration, geometric flight with banking.
 
     Parameters
     ----------
@@ -29,8 +29,9 @@ class Flock:
     seed
         Seed of places and headings.
     **parameters
-        `body_length` (m), `radius` (body lengths), `exponent`, `separation`, `matching`, `centering`,
-        `maximum_speed` (body lengths/s), … Unknown names are refused with the known ones.
+        `body_length` (m), `radius` (body lengths), `exponent`, `separation`, `matching`,
+        `centering`, `maximum_speed` (body lengths/s), … Unknown names are refused with the known
+        ones.
 
     Examples
     --------
@@ -81,7 +82,7 @@ class Flock:
             self._engine.set(name, value)
 
     def step(self, dt: float, ticks: int = 1) -> None:
-        """Update all members `ticks` times by `dt` seconds, in parallel; same result on any threads."""
+        """Update all members `ticks` times by `dt` seconds; the same on any number of threads."""
         self._engine.step(dt, ticks)
 
     @property

@@ -13,8 +13,8 @@ _kinds: dict[str, type[Mind]] = {}
 class Mind:
     """What one animal wants, decided once a tick from what it notices.
 
-    Subclass it and implement `decide`. Attributes that are plain data are the mind's memory: saved and hashed
-    with the world. Any mind drives any body.
+    Subclass it and implement `decide`. Attributes that are plain data are the mind's memory: saved
+    and hashed with the world. Any mind drives any body.
 
     Examples
     --------
@@ -41,18 +41,19 @@ class Mind:
         Parameters
         ----------
         percepts
-            All that it may know, in its own frame (x left, y up, z ahead), metres and seconds: `time`, `dt`,
-            `velocity`, `attitude` (own frame to world's, xyzw), `body_length`, `depth`, `home` (vector to it),
-            `seen` (dicts with `id`, `species`, `position`, `velocity`, `size`, nearest first), `ahead` (none,
-            or `distance` and `aim` beside the obstacle), `heard` (`source`, `kind`, `direction`,
-            `amplitude`), `flow`, `light`, `temperature`, `other`, and `random`, four numbers uniform in
-            [0, 1) of this animal in this tick.
+            All that it may know, in its own frame (x left, y up, z ahead), metres and seconds:
+            `time`, `dt`, `velocity`, `attitude` (own frame to world's, xyzw), `body_length`,
+            `depth`, `home` (vector to it), `seen` (dicts with `id`, `species`, `position`,
+            `velocity`, `size`, nearest first), `ahead` (none, or `distance` and `aim` beside the
+            obstacle), `heard` (`source`, `kind`, `direction`, `amplitude`), `flow`, `light`,
+            `temperature`, `other`, and `random`, four numbers uniform in [0, 1) of this animal in
+            this tick.
 
         Returns
         -------
         dict
-            Any of `behavior` (a word), `heading` (own frame), `speed` (body lengths per second), `urgency`
-            (0 to 1), `gaze` (point in the own frame), `target` (an id).
+            Any of `behavior` (a word), `heading` (own frame), `speed` (body lengths per second),
+            `urgency` (0 to 1), `gaze` (point in the own frame), `target` (an id).
         """
         raise NotImplementedError(f"{type(self).__name__}.decide")
 

@@ -26,6 +26,9 @@ class Sink(Protocol):
     def write(self, events: list[Event]) -> None:
         """Append events."""
 
+    def close(self) -> None:
+        """Finish the file."""
+
 
 def run_world(
     world: World,
@@ -41,8 +44,8 @@ def run_world(
     world, seconds
         What to run, and for how much world time.
     events
-        A .jsonl file (one JSON object per line) or .parquet file (zstd); whole or not there. If the run is
-        interrupted, the events so far are kept.
+        A .jsonl file (one JSON object per line) or .parquet file (zstd); whole or not there. If the
+        run is interrupted, the events so far are kept.
     save
         Where to save the world at the end.
     say
@@ -82,7 +85,7 @@ def event_file(path: Path) -> Iterator[Sink]:
     InvalidValueError
         For another suffix.
     """
-    kinds = {".jsonl": _JsonLines, ".parquet": _Parquet}
+    kinds: dict[str, Callable[[Path], Sink]] = {".jsonl": _JsonLines, ".parquet": _Parquet}
     if path.suffix not in kinds:
         raise InvalidValueError(f"{path}: expected a name that ends in .jsonl or .parquet")
     with written_whole(path) as temporary:

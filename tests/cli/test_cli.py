@@ -34,8 +34,10 @@ def test_a_saved_run_goes_on_as_one_run(bioscope, script, tmp_path):
     whole = bioscope("run", script, "--seconds", 2, "--seed", 4, "--hash").stdout
     loader = tmp_path / "again.py"
     loader.write_text(
-        script.read_text().replace("return small_world(seed)", "import bioscope; "
-        f"return bioscope.World.restore({str(tmp_path / 'half.world')!r})")
+        script.read_text().replace(
+            "return small_world(seed)",
+            f"import bioscope; return bioscope.World.restore({str(tmp_path / 'half.world')!r})",
+        )
     )
     bioscope("run", script, "--seconds", 1, "--seed", 4, "--save", "half.world")
     rest = bioscope("run", loader, "--seconds", 1, "--hash")
@@ -174,7 +176,9 @@ def test_a_run_killed_while_saving_leaves_the_old_file(script, tmp_path):
 
 def test_derive_prints_the_string(bioscope, tmp_path):
     model = tmp_path / "algae.l"
-    model.write_text("lsystem: algae\nderivation length: 4\naxiom: A\nA --> AB\nB --> A\nendlsystem\n")
+    model.write_text(
+        "lsystem: algae\nderivation length: 4\naxiom: A\nA --> AB\nB --> A\nendlsystem\n"
+    )
     assert bioscope("derive", model).stdout == "ABAABABA\n"
     assert bioscope("derive", model, "--steps", 2).stdout == "ABA\n"
     parts = json.loads(bioscope("derive", model, "--steps", 1, "--format", "json").stdout)

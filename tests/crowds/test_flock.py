@@ -131,7 +131,10 @@ def test_the_same_seed_gives_the_same_bits_on_one_and_two_threads():
 
 
 SHAPES = {
-    "sphere": (lambda f: f.add_sphere((0, 0, 40), 5), lambda p: np.linalg.norm(p - [0, 0, 40], axis=1) - 5),
+    "sphere": (
+        lambda f: f.add_sphere((0, 0, 40), 5),
+        lambda p: np.linalg.norm(p - [0, 0, 40], axis=1) - 5,
+    ),
     "cylinder": (
         lambda f: f.add_cylinder((0, -90, 40), (0, 90, 40), 5),
         lambda p: np.linalg.norm((p - [0, 0, 40])[:, [0, 2]], axis=1) - 5,
@@ -171,7 +174,7 @@ def test_neighbors_are_those_of_brute_force():
 
 
 def test_unknown_and_impossible_parameters_are_refused():
-    with pytest.raises(LookupError, match="unknown parameter 'cohesion'.*centering"):
+    with pytest.raises(LookupError, match=r"unknown parameter 'cohesion'.*centering"):
         flock(1, cohesion=1.0)
     with pytest.raises(ValueError, match="body_length"):
         flock(1, body_length=-1.0)

@@ -110,7 +110,9 @@ def test_a_camera_is_chosen_and_an_unknown_one_refused(tmp_path):
     world = small_world()
     world.cameras.orbit("round", target=(0, -1, 0), radius=3)
     world.cameras.follow("after", species="drifters")
-    with pytest.raises(UnknownNameError, match="unknown camera 'side'; this world has: main, round"):
+    with pytest.raises(
+        UnknownNameError, match="unknown camera 'side'; this world has: main, round"
+    ):
         film_world(world, tmp_path / "x.mp4", FilmOptions(**SMALL, camera="side"), say=quiet)
     one, two = tmp_path / "main.mp4", tmp_path / "round.mp4"
     film_world(small_world(), one, FilmOptions(**SMALL, camera="main"), say=quiet)

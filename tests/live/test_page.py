@@ -23,7 +23,7 @@ FLAGS = [
     "--disable-background-networking",
     "--disable-component-update",
 ]
-WORLD = '''
+WORLD = """
 import bioscope as bio
 
 def world(seed):
@@ -32,7 +32,7 @@ def world(seed):
     world.add(bio.FishSchool("fusilier", 24, center=(0, -2, 0)), "school")
     world.cameras.follow("school", species="fusilier", index=7, offset=(2.5, 0.5, 1.0))
     return world
-'''
+"""
 
 
 @pytest.fixture(scope="module")

@@ -88,6 +88,10 @@ class Page:
     async def frame(self, wanted=lambda _: True):
         return await self.until(lambda one: one["type"] == "frame" and wanted(one))
 
+    async def until_closed(self):
+        while True:
+            await self.link.recv()
+
 
 @contextlib.asynccontextmanager
 async def page(server, *, join=True, **options):
@@ -257,8 +261,7 @@ def test_malformed_messages_end_that_page_only(server, text):
             await bad.frame()
             await bad.link.send(text)
             with pytest.raises(websockets.ConnectionClosed) as closed:
-                while True:
-                    await asyncio.wait_for(bad.link.recv(), 10)
+                await asyncio.wait_for(bad.until_closed(), 10)
             await good.frame()
             return closed.value.rcvd.code
 
@@ -270,8 +273,7 @@ def test_oversized_messages_are_refused(server):
         async with page(server) as one:
             await one.link.send("x" * 200_000)
             with pytest.raises(websockets.ConnectionClosed) as closed:
-                while True:
-                    await asyncio.wait_for(one.link.recv(), 10)
+                await asyncio.wait_for(one.until_closed(), 10)
             return closed.value.rcvd.code
 
     assert run(scene()) == 1009

@@ -122,6 +122,8 @@ def test_a_school_flees_from_what_is_large():
     world = tank(3)
     world.add(bio.FishSchool("anchovy", 80, center=(0, -5, 0), home_radius=3.0))
     world.run(seconds=3)
-    world.add(bio.RoamingFish("grey_reef_shark", 1, center=(0, -5, -2.5), radius=0.1, home=(0, -5, 0)))
+    world.add(
+        bio.RoamingFish("grey_reef_shark", 1, center=(0, -5, -2.5), radius=0.1, home=(0, -5, 0))
+    )
     world.run(seconds=12)
     assert "startled" in {event.kind for event in world.events}

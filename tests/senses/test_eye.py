@@ -71,7 +71,8 @@ def test_depth_agrees_with_rays_all_over_the_picture():
     reach = math.tan(math.radians(25))
     rows, columns = np.mgrid[0:80, 0:80]
     rays = np.stack(
-        [((columns + 0.5) / 40 - 1) * reach, (1 - (rows + 0.5) / 40) * reach, -np.ones((80, 80))], -1
+        [((columns + 0.5) / 40 - 1) * reach, (1 - (rows + 0.5) / 40) * reach, -np.ones((80, 80))],
+        -1,
     )
     rays /= np.linalg.norm(rays, axis=-1, keepdims=True)
     along = rays @ balls.places[0]
@@ -121,7 +122,9 @@ def test_water_takes_the_red_first():
     world.add(Balls([(0, 0, -12)], radius=0.9))
     far = bio.look(world.scene, bio.Camera.looking_at((0, 0, 0), (0, 0, -1), 0.5), (33, 33))
     assert far.identity[16, 16] > 0
-    assert far.color[16, 16, 0] / far.color[16, 16, 2] < near.color[16, 16, 0] / near.color[16, 16, 2]
+    assert (
+        far.color[16, 16, 0] / far.color[16, 16, 2] < near.color[16, 16, 0] / near.color[16, 16, 2]
+    )
 
 
 @pytest.mark.parametrize("size", [(0, 5), (100000, 100000)])

@@ -59,7 +59,7 @@ def test_parameters_are_described_and_bounded(world):
     assert speed.meaning
     with pytest.raises(ValueError, match=r"speed = 99.*0 to 3 m/s"):
         world.set("current", "speed", 99)
-    with pytest.raises(LookupError, match="unknown parameter 'sped'.*speed"):
+    with pytest.raises(LookupError, match=r"unknown parameter 'sped'.*speed"):
         world.set("current", "sped", 1)
     with pytest.raises(LookupError, match="nobody"):
         world.set("nobody", "speed", 1)

@@ -39,7 +39,9 @@ def test_fishes_school_above_the_ground_below_the_surface(reef):
     for batch in living(reef, "fusilier") + living(reef, "anthias"):
         places = batch.positions
         assert (places[:, 1] < 0).all()
-        columns = np.clip(((places[:, 0] - origin[0]) / spacing).astype(int), 0, heights.shape[1] - 1)
+        columns = np.clip(
+            ((places[:, 0] - origin[0]) / spacing).astype(int), 0, heights.shape[1] - 1
+        )
         rows = np.clip(((places[:, 2] - origin[1]) / spacing).astype(int), 0, heights.shape[0] - 1)
         assert (places[:, 1] > heights[rows, columns] - 0.3).all()
 
@@ -98,7 +100,11 @@ def test_one_and_two_threads_and_a_restore_give_the_same_reef(tmp_path):
     for threads in ("1", "2"):
         environment = os.environ | {"RAYON_NUM_THREADS": threads}
         done = subprocess.run(
-            [sys.executable, "-c", SCRIPT], env=environment, capture_output=True, text=True, check=True
+            [sys.executable, "-c", SCRIPT],
+            env=environment,
+            capture_output=True,
+            text=True,
+            check=True,
         )
         hashes.append(done.stdout.strip())
     world = bio.load("reef", seed=3)

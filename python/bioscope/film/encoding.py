@@ -1,7 +1,7 @@
 """Encoding: pictures and sound to H.264 and AAC in MP4, by PyAV or by an ffmpeg on the path.
 
-A film is encoded in segments, each a whole file, so that what is finished survives any interruption;
-the segments are joined without encoding them again.
+A film is encoded in segments, each a whole file, so that what is finished survives any
+interruption; the segments are joined without encoding them again.
 """
 
 from __future__ import annotations
@@ -111,7 +111,7 @@ class AvEncoder:
 
     @staticmethod
     def _append(segment: Path, out: Any, video: Any, offset: int) -> int:
-        """Copy a segment's packets, shifted by `offset` of its time base; return the next offset."""
+        """Copy a segment's packets, `offset` of its time base later; return the next offset."""
         import av
 
         with av.open(str(segment)) as source:

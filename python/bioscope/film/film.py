@@ -1,7 +1,7 @@
 """Filming: the world runs, cameras look, microphones listen; what is finished is never lost.
 
-A film in the making lives in a folder beside its file, `.NAME.partial`: finished segments, and after each
-of them the world, the camera and the sounds so far. The same command goes on from there.
+A film in the making lives in a folder beside its file, `.NAME.partial`: finished segments, and
+after each of them the world, the camera and the sounds so far. The same command goes on from there.
 """
 
 from __future__ import annotations
@@ -92,9 +92,7 @@ def film_world(
     shooting.shoot()
 
 
-def seed_of_partial(
-    output: Path | None, frames: Path | None, options: FilmOptions
-) -> int | None:
+def seed_of_partial(output: Path | None, frames: Path | None, options: FilmOptions) -> int | None:
     """Return the seed of an interrupted film with these options; none if there is no such one."""
     try:
         progress = _read(_work_folder(output, frames) / "progress")
@@ -149,7 +147,11 @@ class Shooting:
         except (OSError, msgspec.MsgspecError):
             old = fresh
         same = (old.version, old.seed, old.title, old.start_tick, old.options) == (
-            fresh.version, fresh.seed, fresh.title, fresh.start_tick, fresh.options,
+            fresh.version,
+            fresh.seed,
+            fresh.title,
+            fresh.start_tick,
+            fresh.options,
         )
         if not same or not old.frames_done or not self._segments_there(old):
             shutil.rmtree(self._work, ignore_errors=True)

@@ -18,7 +18,7 @@ _SECONDS_PER_SHOT = 5.0
 
 
 class Operator:
-    """Gives the camera of each picture: one camera throughout, or the world's shot list over and over."""
+    """Gives the camera of each picture: one throughout, or the world's shot list over and over."""
 
     def __init__(self, world: World, camera: str | None) -> None:
         self._world = world
@@ -34,7 +34,7 @@ class Operator:
         self._shot = -1
 
     def camera(self, seconds: float, dt: float) -> tuple[Camera, bool]:
-        """Return the camera `seconds` into the film, `dt` after the last, and whether it is a cut."""
+        """Return the camera at `seconds` of the film, `dt` after the last, and whether it cuts."""
         shot, name = self._at(seconds)
         cut = shot != self._shot
         previous = None if cut else self._previous

@@ -17,8 +17,16 @@ def inspection(world: World, individual: int, size: tuple[int, int]) -> bytes:
     """Return the message about one individual; its values are empty if it is no more."""
     found = world.inspect(individual)
     if found is None:
-        return encode("inspection", id=individual, species="", population="", behavior=None,
-                      values={}, percepts={}, retina=None)
+        return encode(
+            "inspection",
+            id=individual,
+            species="",
+            population="",
+            behavior=None,
+            values={},
+            percepts={},
+            retina=None,
+        )
     eye = found.pop("eye")
     retina = None if eye is None else _retina(world.scene, eye, size)
     return encode("inspection", **found, retina=retina)

@@ -20,46 +20,46 @@ class Command(msgspec.Struct, tag_field="do", forbid_unknown_fields=True, frozen
     """Base of all commands."""
 
 
-class Join(Command, tag="join"):
+class Join(Command, tag="join", frozen=True):
     """First message of a page."""
 
     version: Word
     token: Word | None = None
 
 
-class Play(Command, tag="play"):
+class Play(Command, tag="play", frozen=True):
     """Run."""
 
 
-class Pause(Command, tag="pause"):
+class Pause(Command, tag="pause", frozen=True):
     """Stand still."""
 
 
-class Step(Command, tag="step"):
+class Step(Command, tag="step", frozen=True):
     """Pause and go forward."""
 
     ticks: Ticks = 1
 
 
-class Back(Command, tag="back"):
+class Back(Command, tag="back", frozen=True):
     """Pause and go back."""
 
     ticks: Ticks = 1
 
 
-class Seek(Command, tag="seek"):
+class Seek(Command, tag="seek", frozen=True):
     """Go to a tick between first and last."""
 
     tick: Tick
 
 
-class Speed(Command, tag="speed"):
+class Speed(Command, tag="speed", frozen=True):
     """Times real time; null for as fast as possible."""
 
     factor: Annotated[float, msgspec.Meta(ge=0.05, le=100.0)] | None
 
 
-class Restart(Command, tag="restart"):
+class Restart(Command, tag="restart", frozen=True):
     """Begin a new world of this seed, with these parameters, run to this tick."""
 
     seed: Annotated[int, msgspec.Meta(ge=0)] | None = None
@@ -67,7 +67,7 @@ class Restart(Command, tag="restart"):
     tick: Annotated[int, msgspec.Meta(ge=0, le=100_000)] = 0
 
 
-class Select(Command, tag="select"):
+class Select(Command, tag="select", frozen=True):
     """Inspect this individual."""
 
     id: Annotated[int, msgspec.Meta(ge=0, lt=2**32)]
@@ -76,7 +76,7 @@ class Select(Command, tag="select"):
     ] = (96, 96)
 
 
-class Set(Command, tag="set"):
+class Set(Command, tag="set", frozen=True):
     """Change a parameter."""
 
     owner: Word
@@ -84,17 +84,17 @@ class Set(Command, tag="set"):
     value: float
 
 
-class Annotations(Command, tag="annotations"):
+class Annotations(Command, tag="annotations", frozen=True):
     """Say whether frames carry annotations."""
 
     on: bool
 
 
-class Snapshot(Command, tag="snapshot"):
+class Snapshot(Command, tag="snapshot", frozen=True):
     """Ask for the saved world."""
 
 
-class Seen(Command, tag="seen"):
+class Seen(Command, tag="seen", frozen=True):
     """Acknowledge that a frame has been drawn."""
 
     tick: Annotated[int, msgspec.Meta(ge=0)]

@@ -163,10 +163,14 @@ class Live:
             return False
         given = (command.token or "").encode()
         if self.token is not None and not hmac.compare_digest(given, self.token.encode()):
-            await self._refuse(client, REFUSED, "This world asks for a token: add ?token=… to the address.")
+            await self._refuse(
+                client, REFUSED, "This world asks for a token: add ?token=… to the address."
+            )
             return False
         if command.version != _engine.VERSION:
-            text = f"The page is of version {command.version}, the world of {_engine.VERSION}: reload."
+            text = (
+                f"The page is of version {command.version}, the world of {_engine.VERSION}: reload."
+            )
             await self._refuse(client, OTHER_VERSION, text)
             return False
         for message in self.session.greeting():
@@ -302,8 +306,8 @@ def serve(
     world, seed
         A world, or the name or path of one and its seed.
     host, port, token
-        Where to listen; a port in use gives way to the next free one. Addresses beyond this machine need
-        a token, which pages must know.
+        Where to listen; a port in use gives way to the next free one. Addresses beyond this machine
+        need a token, which pages must know.
     open_browser
         Whether to open the page.
     say

@@ -7,6 +7,7 @@ import time
 import traceback
 from collections import deque
 from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -54,8 +55,8 @@ class Session:
     seed
         Seed, if `world` is a name.
     publish
-        Called from the session's thread: with nothing when a newer `snapshot` is there, with a message that
-        every page should get, otherwise.
+        Called from the session's thread: with nothing when a newer `snapshot` is there, with a
+        message that every page should get, otherwise.
     """
 
     def __init__(
@@ -190,7 +191,9 @@ class Session:
         if self.speed is None:
             self._due = float("inf")
         else:
-            self._due = min(self._due + elapsed * self.speed / dt, _MOST_CATCH_UP * self.speed / dt + 1)
+            self._due = min(
+                self._due + elapsed * self.speed / dt, _MOST_CATCH_UP * self.speed / dt + 1
+            )
         try:
             while self._due >= 1 and time.perf_counter() - now < _SLICE:
                 self.timeline.step()
@@ -215,11 +218,13 @@ class Session:
 
     def _frame(self) -> None:
         scene = self.world.scene
-        status = {"running": self.running, "speed": self.speed, "rate": self.rate}
-        revision, layout, frame = self._encoder.encode(scene, **status)
+        encoded = partial(
+            self._encoder.encode, scene, running=self.running, speed=self.speed, rate=self.rate
+        )
+        revision, layout, frame = encoded()
         annotated = frame
         if self.annotations:
-            _, _, annotated = self._encoder.encode(scene, **status, annotations=True)
+            _, _, annotated = encoded(annotations=True)
         old = self.snapshot
         self.snapshot = Snapshot(
             revision=revision,

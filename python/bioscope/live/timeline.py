@@ -21,8 +21,8 @@ class Change(NamedTuple):
 class Timeline:
     """The past of one world, in bounded memory.
 
-    Keeps a checkpoint every `interval` ticks; when they outgrow `most_bytes`, every other one is dropped
-    (but the first) and the interval doubles, so any tick stays within reach of a replay.
+    Keeps a checkpoint every `interval` ticks; when they outgrow `most_bytes`, every other one is
+    dropped (but the first) and the interval doubles, so any tick stays within reach of a replay.
     """
 
     def __init__(self, world: World, interval: int = 60, most_bytes: int = 96 << 20) -> None:

@@ -15,9 +15,10 @@ if TYPE_CHECKING:
 
 
 class LSystem:
-    """A parametric, stochastic, bracketed, conditional and context-sensitive L-system.
+    r"""A parametric, stochastic, bracketed, conditional and context-sensitive L-system.
 
-    P. Prusinkiewicz and A. Lindenmayer, "The Algorithmic Beauty of Plants", 1990; the notation of cpfg.
+    P. Prusinkiewicz and A. Lindenmayer, "The Algorithmic Beauty of Plants", 1990; the notation of
+    cpfg.
 
     Parameters
     ----------
@@ -29,12 +30,13 @@ class LSystem:
     Raises
     ------
     FormatError
-        With file, line, column, the offending line and what was expected, for everything that is wrong.
+        With file, line, column, the offending line and what was expected, for everything that is
+        wrong.
 
     Examples
     --------
     >>> import bioscope as bio
-    >>> algae = bio.LSystem("lsystem: algae\\naxiom: A\\nA --> AB\\nB --> A\\nendlsystem\\n")
+    >>> algae = bio.LSystem("lsystem: algae\naxiom: A\nA --> AB\nB --> A\nendlsystem\n")
     >>> algae.derive(steps=4).string()
     'ABAABABA'
     """
@@ -68,8 +70,8 @@ class LSystem:
         Raises
         ------
         FormatError
-            If a production cannot be evaluated, or the string outgrows the limits (200 million modules,
-            2 GiB); the message names the production.
+            If a production cannot be evaluated, or the string outgrows the limits (200 million
+            modules, 2 GiB); the message names the production.
         """
         return ModuleString(self._engine.derive(self.steps if steps is None else steps, seed))
 

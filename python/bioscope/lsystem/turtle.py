@@ -50,7 +50,10 @@ class Interpretation:
     @property
     def surfaces(self) -> list[tuple[str, tuple[float, ...], tuple[float, ...], int]]:
         """Predefined surfaces as (name, position, scale, colour number)."""
-        return [(name, tuple(at), tuple(scale), color) for name, at, scale, color in self._engine.surfaces]
+        return [
+            (name, tuple(at), tuple(scale), color)
+            for name, at, scale, color in self._engine.surfaces
+        ]
 
     def mesh(
         self, *, sides: int = 8, palette: list[tuple[float, float, float]] | None = None
@@ -73,8 +76,8 @@ class Turtle:
     Parameters
     ----------
     **options
-        `step` (m), `angle` (degrees; the file's if it says one), `width` (m), `width_step` (m), `color`,
-        `slash_rolls_right`, `tropism` (direction), `susceptibility` (radians).
+        `step` (m), `angle` (degrees; the file's if it says one), `width` (m), `width_step` (m),
+        `color`, `slash_rolls_right`, `tropism` (direction), `susceptibility` (radians).
     """
 
     def __init__(self, **options: Any) -> None:

@@ -27,14 +27,15 @@ def _species(species: str) -> object:
 class FishSchool(Asked):
     """A school of fish by Reynolds' rules: separation, alignment, cohesion, obstacles first.
 
-    C. W. Reynolds, "Flocks, herds, and schools: a distributed behavioral model", SIGGRAPH 1987. The fishes
-    flee from large animals that they see, keep off seabed, rocks and surface, and are carried by the
-    current; their bodies undulate with the thrust that their motion needs.
+    C. W. Reynolds, "Flocks, herds, and schools: a distributed behavioral model", SIGGRAPH 1987. The
+    fishes flee from large animals that they see, keep off seabed, rocks and surface, and are
+    carried by the current; their bodies undulate with the thrust that their motion needs.
 
     Parameters
     ----------
     species
-        A species by name (`anchovy`, `fusilier`, `anthias`, …), or the path of a species file (.toml).
+        A species by name (`anchovy`, `fusilier`, `anthias`, …), or the path of a species file
+        (.toml).
     count
         How many, up to 200,000.
     center
@@ -70,8 +71,8 @@ class FishSchool(Asked):
 class RoamingFish(Asked):
     """Single fishes with eyes, touch, ears, a lateral line and a roamer's mind.
 
-    They cruise through their home range, keep clear of what they touch or see ahead, inspect schools, and
-    dash now and then.
+    They cruise through their home range, keep clear of what they touch or see ahead, inspect
+    schools, and dash now and then.
 
     Parameters
     ----------
@@ -84,7 +85,8 @@ class RoamingFish(Asked):
     home
         Middle of their home range, metres; `center` if not given.
     mind
-        Called once per fish for a mind of your own (a `Mind` class will do); a roamer's if not given.
+        Called once per fish for a mind of your own (a `Mind` class will do); a roamer's if not
+        given.
     **parameters
         Any of the population's parameters; see `World.parameters`.
     """

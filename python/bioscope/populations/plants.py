@@ -20,8 +20,8 @@ class Plants(Asked):
     Parameters
     ----------
     model
-        Path of an L-system file (`.l`; a `.colors` file beside it names its colours), or the name of a
-        model from `bioscope list` (`kelp`).
+        Path of an L-system file (`.l`; a `.colors` file beside it names its colours), or the name
+        of a model from `bioscope list` (`kelp`).
     count
         How many.
     habitat
@@ -85,5 +85,7 @@ def _model(model: str) -> Path:
     known = models()
     if model not in known:
         names = ", ".join(known)
-        raise UnknownNameError(f"unknown plant model '{model}'; known: {names}, or a path to a .l file")
+        raise UnknownNameError(
+            f"unknown plant model '{model}'; known: {names}, or a path to a .l file"
+        )
     return known[model]

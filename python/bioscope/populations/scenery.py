@@ -24,9 +24,9 @@ class Ground(Asked):
     Parameters
     ----------
     relief
-        Fields of the reef's relief to make it from (`seed`, `size`, `spacing`, `floor`, `crest`, `wall`,
-        `wall_width`, `embrace`, `roughness`, `bommies`, `mounds`, `channel`, `channel_width`,
-        `sand_waves`); none shows the terrain that the world has.
+        Fields of the reef's relief to make it from (`seed`, `size`, `spacing`, `floor`, `crest`,
+        `wall`, `wall_width`, `embrace`, `roughness`, `bommies`, `mounds`, `channel`,
+        `channel_width`, `sand_waves`); none shows the terrain that the world has.
     rock_slope, rock_height
         Steepness in degrees and height in metres from which there is rock.
     sand_color, rock_color
@@ -126,7 +126,8 @@ class Props(Asked):
     places
         Where each copy stands, metres.
     species, color, uvs, colors
-        Species in the scene, linear colour, texture coordinates (n, 2), linear vertex colours (n, 3).
+        Species in the scene, linear colour, texture coordinates (n, 2), linear vertex colours (n,
+        3).
     """
 
     def __init__(

@@ -27,12 +27,12 @@ class View:
     color: NDArray[np.float32]
     """Linear radiance (height, width, 3), RGB."""
     depth: NDArray[np.float32]
-    """Distance from the eye along each pixel's ray (height, width) in metres; infinite where nothing is."""
+    """Distance along each pixel's ray (height, width) in metres; infinite where nothing is."""
     identity: NDArray[np.uint32]
     """Id of what is seen (height, width), as in the scene; 0 where nothing is."""
 
     def picture(self, exposure: float = 1.0, *, alpha: bool = False) -> NDArray[np.uint8]:
-        """Return the colour for a screen: (height, width, 3 or 4) sRGB bytes, softly tone-mapped."""
+        """Return the color for a screen: (height, width, 3 or 4) sRGB bytes, tone-mapped."""
         light = 1.0 - np.exp(-1.4 * exposure * np.maximum(self.color, 0.0))
         display = np.where(light < 0.0031308, light * 12.92, 1.055 * light ** (1 / 2.4) - 0.055)
         pixels = (display * 255.0 + 0.5).astype(np.uint8)

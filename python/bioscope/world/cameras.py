@@ -16,7 +16,7 @@ Vector = tuple[float, float, float]
 
 
 class Cameras:
-    """The named cameras of one world; reached as `world.cameras`. Angles of view are vertical, degrees."""
+    """The named cameras of one world, `world.cameras`. Angles of view are vertical, degrees."""
 
     def __init__(self, world: World) -> None:
         self._world = world
@@ -52,7 +52,8 @@ class Cameras:
     ) -> None:
         """Add a camera that goes with the `index`-th animal of a species, late and loosely.
 
-        `offset` is where it wants to be, in the animal's frame (left, up, ahead) and in its body lengths.
+        `offset` is where it wants to be, in the animal's frame (left, up, ahead) and in its body
+        lengths.
         """
         angle = math.radians(field_of_view)
         self._world._engine.add_follow_rig(name, angle, species, index, offset)

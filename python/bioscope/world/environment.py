@@ -23,7 +23,7 @@ class Environment:
         self._world = world
 
     def water(self, surface: float = 0.0, current: Current | None = None) -> None:
-        """Fill everything below `surface` (metres) with clear sea water, with a current if given."""
+        """Fill everything below `surface` (metres) with sea water, with a current if given."""
         self._world._engine.fill_with_water(surface)
         if current is not None:
             self.add(current)
@@ -68,6 +68,6 @@ class Environment:
         return field
 
     def set(self, **values: float) -> None:
-        """Set light and water by name: `sun_elevation`, `turbidity`, `caustics`, …"""
+        """Set light and water by name: `sun_elevation`, `turbidity`, `caustics` and more."""
         for name, value in values.items():
             self._world.set("environment", name, value)

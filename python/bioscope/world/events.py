@@ -67,5 +67,7 @@ def table(events: Iterable[Event]) -> pyarrow.Table:
             pyarrow.field("data", pyarrow.string()),
         ]
     )
-    rows = [event.as_dict() | {"data": msgspec.json.encode(event.data).decode()} for event in events]
+    rows = [
+        event.as_dict() | {"data": msgspec.json.encode(event.data).decode()} for event in events
+    ]
     return pyarrow.Table.from_pylist(rows, schema=schema)

@@ -36,9 +36,9 @@ class Field:
     def at(self, points: NDArray[np.float32], time: float) -> Mapping[str, NDArray[np.float32]]:
         """Return what acts at points (n, 3) in metres at `time` in seconds.
 
-        Any of `flow` (n, 3) in m/s, `force` (n, 3) in m/s², `light` (n,) 0 to 1, `temperature` (n,) in
-        kelvin above the world's, `scent` (n,) from 0 to 1 at the source; float32. Must depend on points, time
-        and the field's attributes alone.
+        Any of `flow` (n, 3) in m/s, `force` (n, 3) in m/s², `light` (n,) 0 to 1, `temperature` (n,)
+        in kelvin above the world's, `scent` (n,) from 0 to 1 at the source; float32. Must depend on
+        points, time and the field's attributes alone.
         """
         raise NotImplementedError(f"{type(self).__name__}.at")
 

@@ -81,12 +81,14 @@ class Native(Resident):
 class Population:
     """A population of your own, on numpy arrays.
 
-    Subclass it, keep the individuals in arrays on `self`, and implement the verbs that you need. In every
-    tick the world calls `sense`, `decide`, `move`, `grow` and `publish`, each on all populations
-    before the next begins. All attributes that are plain data (numbers, texts, lists, dicts, numpy
-    arrays) are the state: they are saved, hashed and put back when a tick fails. Name others in `transient`.
+    Subclass it, keep the individuals in arrays on `self`, and implement the verbs that you need. In
+    every tick the world calls `sense`, `decide`, `move`, `grow` and `publish`, each on all
+    populations before the next begins. All attributes that are plain data (numbers, texts, lists,
+    dicts, numpy arrays) are the state: they are saved, hashed and put back when a tick fails. Name
+    others in `transient`.
 
-    An exception in a verb stops `World.step`, and the world is as it was after the last complete tick.
+    An exception in a verb stops `World.step`, and the world is as it was after the last complete
+    tick.
 
     Examples
     --------

@@ -1,7 +1,7 @@
 """How the state of populations and fields written in Python becomes bytes and back.
 
-Plain data only: numbers, texts, truth values, none, lists, tuples, dicts and numpy arrays. Nothing in a
-saved world is ever evaluated as code.
+Plain data only: numbers, texts, truth values, none, lists, tuples, dicts and numpy arrays. Nothing
+in a saved world is ever evaluated as code.
 """
 
 from __future__ import annotations

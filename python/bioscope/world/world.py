@@ -141,7 +141,7 @@ class World:
         return {name: count for name, _, count in self._engine.populations}
 
     def step(self, ticks: int = 1) -> None:
-        """Make ticks. If code of your own fails in one, the world is back at the last complete tick."""
+        """Make ticks. If your code fails in one, the world is back at the last complete tick."""
         self._engine.step(ticks)
 
     def run(self, seconds: float) -> None:
@@ -204,7 +204,9 @@ class World:
         """
         data = Path(path).read_bytes()
         with naming(path):
-            return cls._of(_engine.World.restore(data, populations.kinds(), fields.kinds(), minds.kinds()))
+            return cls._of(
+                _engine.World.restore(data, populations.kinds(), fields.kinds(), minds.kinds())
+            )
 
     def export(
         self, path: str | PathLike[str], seconds: float, fps: float = 24.0, **options: Any
@@ -271,7 +273,9 @@ class World:
         """Repeat a recorded run to its end; ends in the same state, to the bit."""
         data = Path(path).read_bytes()
         with naming(path):
-            return cls._of(_engine.World.replay(data, populations.kinds(), fields.kinds(), minds.kinds()))
+            return cls._of(
+                _engine.World.replay(data, populations.kinds(), fields.kinds(), minds.kinds())
+            )
 
 
 __all__ = ["Resident", "World"]

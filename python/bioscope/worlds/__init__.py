@@ -105,7 +105,9 @@ def _place(path: Path, error: BaseException) -> str:
         column = f":{error.offset}" if error.offset else ""
         return f"{error.filename or path}:{error.lineno}{column}: {error.msg}"
     frames = traceback.extract_tb(error.__traceback__)
-    lines = [one.lineno for one in frames if Path(one.filename) == path or one.filename == str(path)]
+    lines = [
+        one.lineno for one in frames if Path(one.filename) == path or one.filename == str(path)
+    ]
     line = f":{lines[-1]}" if lines else ""
     kind = "" if isinstance(error, BioscopeError) else f"{type(error).__name__}: "
     return f"{path}{line}: {kind}{error}"

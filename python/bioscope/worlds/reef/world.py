@@ -1,8 +1,8 @@
 """A coral reef where a shark stalks schools of fish among swaying plants.
 
-Watch for: the school of fusiliers that streams through the channel, splits round the rocks and flees in a
-wave when the shark comes near; kelp and sea grass that follow the swell, the tips late and wide;
-bubbles that ring from vents; shrimps that crackle among the corals.
+Watch for: the school of fusiliers that streams through the channel, splits round the rocks and
+flees in a wave when the shark comes near; kelp and sea grass that follow the swell, the tips late
+and wide; bubbles that ring from vents; shrimps that crackle among the corals.
 
 Source of the schooling: C. W. Reynolds, "Flocks, herds, and schools", SIGGRAPH 1987.
 """
@@ -54,9 +54,10 @@ def _settle_plants(reef: bio.World) -> None:
 def _settle_animals(reef: bio.World) -> None:
     reef.add(bio.FishSchool("fusilier", 240, center=(0.6, -3.9, 1.0)))
     reef.add(bio.FishSchool("anthias", 70, center=(2.8, -5.2, -2.0), home_radius=2.0))
-    reef.add(bio.RoamingFish("grey_reef_shark", 1, center=(-4.0, -3.6, -4.5), home=(0.0, -3.8, -1.5)))
-    box = {"low": (-9.0, -9.0, -8.0), "high": (9.0, -0.2, 10.0)}
-    reef.add(bio.Plankton(1800, **box))
+    reef.add(
+        bio.RoamingFish("grey_reef_shark", 1, center=(-4.0, -3.6, -4.5), home=(0.0, -3.8, -1.5))
+    )
+    reef.add(bio.Plankton(1800, low=(-9.0, -9.0, -8.0), high=(9.0, -0.2, 10.0)))
     vents = Rectangle((-4.0, -4.0), (5.0, 3.0))
     reef.add(bio.Bubbles(6, area=vents, rate=1.3, cluster=16.0, radius=0.006))
 
@@ -65,9 +66,7 @@ def _place_cameras(reef: bio.World) -> None:
     cameras = reef.cameras
     cameras.fixed("garden", position=(0.9, -5.2, 4.7), target=(0.35, -4.45, 0.0), field_of_view=52)
     cameras.follow("school", species="fusilier", index=20, offset=(4.5, 0.8, 4.0), field_of_view=46)
-    cameras.follow(
-        "shark", species="grey_reef_shark", offset=(1.1, 0.25, 0.9), field_of_view=44
-    )
+    cameras.follow("shark", species="grey_reef_shark", offset=(1.1, 0.25, 0.9), field_of_view=44)
     cameras.orbit("round", target=(0.3, -4.6, -0.8), radius=5.6, height=0.8, period=80)
     cameras.fixed("upward", position=(1.5, -6.0, 2.2), target=(0.2, -2.2, -0.6), field_of_view=62)
     reef.shots = [("garden", 3.5), ("school", 3.0), ("shark", 3.5), ("upward", 3.5), ("round", 6.0)]
