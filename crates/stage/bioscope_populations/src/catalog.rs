@@ -17,8 +17,15 @@ use crate::scenery::{Corals, Ground, Props, Rocks};
 
 /// The kinds that [`population`] makes.
 pub const KINDS: [&str; 9] = [
-    "bubbles", "corals", "fish_school", "ground", "plankton", "plants", "props",
-    "roaming_fish", "rocks",
+    "bubbles",
+    "corals",
+    "fish_school",
+    "ground",
+    "plankton",
+    "plants",
+    "props",
+    "roaming_fish",
+    "rocks",
 ];
 
 /// Most fishes with minds of their own in one population.

@@ -103,11 +103,7 @@ impl World {
 
     pub(crate) fn save_state(&self) -> Result<Vec<u8>> {
         let fields = self.environment.fields.iter().map(|(name, field)| {
-            Ok(Saved {
-                name: name.clone(),
-                kind: field.kind().to_owned(),
-                bytes: field.save()?,
-            })
+            Ok(Saved { name: name.clone(), kind: field.kind().to_owned(), bytes: field.save()? })
         });
         let populations = self.populations.iter().map(|one| {
             Ok(Saved {
