@@ -11,6 +11,9 @@ const SMALL: u32 = 24;
 /// Owner of samples that see nothing.
 pub(crate) const NOBODY: u32 = u32::MAX;
 
+/// Whether a surface with holes is solid at a column and row.
+pub(crate) type Solid<'a> = dyn Fn(usize, usize) -> bool + 'a;
+
 /// Nearness and owner of the samples of some rows, four samples at a time. Nearness is 1/distance for a
 /// fish-eye, 1/distance along the axis for a perspective, height along the sun for a shadow.
 #[derive(Debug, Default)]
@@ -94,7 +97,7 @@ impl Sheet {
         window: &Window,
         tests: &Tests,
         owner: u32,
-        solid: Option<&dyn Fn(usize, usize) -> bool>,
+        solid: Option<&Solid>,
     ) {
         match &lens.round {
             None => self.cover_flat(window, tests, owner, solid),
@@ -109,7 +112,7 @@ impl Sheet {
         window: &Window,
         tests: &Tests,
         owner: u32,
-        solid: Option<&dyn Fn(usize, usize) -> bool>,
+        solid: Option<&Solid>,
     ) {
         let steps = f32x4::from([0.0, 1.0, 2.0, 3.0]);
         let [first, last] = [window.columns[0] / 4, window.columns[1].div_ceil(4)];
@@ -161,7 +164,7 @@ impl Sheet {
         window: &Window,
         tests: &Tests,
         owner: u32,
-        solid: Option<&dyn Fn(usize, usize) -> bool>,
+        solid: Option<&Solid>,
     ) {
         let [first, last] = [window.columns[0] / 4, window.columns[1].div_ceil(4)];
         let rows = window.rows;
@@ -193,7 +196,7 @@ impl Sheet {
         rows: [u32; 2],
         tests: &Tests,
         owner: u32,
-        solid: Option<&dyn Fn(usize, usize) -> bool>,
+        solid: Option<&Solid>,
     ) {
         for row in rows[0]..rows[1] {
             let line = (row as usize - self.first_row) * self.groups;
@@ -225,7 +228,7 @@ impl Sheet {
         nearness: f32x4,
         tests: &Tests,
         owner: u32,
-        solid: Option<(&dyn Fn(usize, usize) -> bool, u32, u32)>,
+        solid: Option<(&Solid, u32, u32)>,
     ) {
         let old = self.nearness[index];
         let mut wins =
@@ -251,7 +254,7 @@ fn narrow(span: &mut [f32; 2], slope: f32, start: f32) {
 }
 
 /// Which lanes a surface with holes keeps.
-fn kept(wins: f32x4, column: u32, row: u32, solid: &dyn Fn(usize, usize) -> bool) -> f32x4 {
+fn kept(wins: f32x4, column: u32, row: u32, solid: &Solid) -> f32x4 {
     let bits = wins.to_bitmask();
     let lanes: [u32; 4] = std::array::from_fn(|lane| {
         let asked = bits >> lane & 1 == 1;

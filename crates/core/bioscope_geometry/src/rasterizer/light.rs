@@ -159,8 +159,11 @@ pub(crate) fn sky(light: &Light, direction: Vec3) -> Rgb {
 #[inline(always)]
 pub(crate) fn sun_disc(light: &Light, direction: Vec3, blur: f32) -> Rgb {
     let away = 1.0 - direction.dot(light.sun);
+    if away > 0.12 {
+        return Rgb::ZERO;
+    }
     let disc = smoothstep(0.000_12 + blur, 0.000_05, away) * 40.0 / (1.0 + blur * 4000.0);
-    let halo = 0.6 * exp(-away * 60.0) + 1.5 * exp(-away * 900.0);
+    let halo = 0.6 * (exp(-away * 60.0) - 0.000_75) + 1.5 * exp(-away * 900.0);
     light.sun_color * (disc + halo)
 }
 

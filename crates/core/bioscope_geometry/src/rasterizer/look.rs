@@ -21,7 +21,7 @@ use crate::{Camera, Mesh};
 const SMALL: usize = 128 * 128;
 
 /// Rows per strip.
-const ROWS: usize = 24;
+const ROWS: usize = 40;
 
 /// Things that would be smaller than this many pixels are left out.
 const LEAST: f32 = 0.3;
