@@ -77,11 +77,8 @@ impl Encoder {
     fn collect_assets(&mut self, scene: &Scene) {
         let mut old = std::mem::take(&mut self.assets);
         let mut keep = |key: u64, make: &dyn Fn() -> Vec<u8>| {
-            let assets = &mut self.assets;
-            if !assets.contains_key(&key) {
-                let bytes = old.remove(&key).unwrap_or_else(|| make().into());
-                assets.insert(key, bytes);
-            }
+            let known = || old.remove(&key).unwrap_or_else(|| make().into());
+            self.assets.entry(key).or_insert_with(known);
         };
         for batch in &scene.batches {
             let material = &batch.material;

@@ -25,7 +25,7 @@ pub fn points(points: impl Iterator<Item = Vec3>, low: Vec3, high: Vec3) -> Vec<
 
 /// Rotations as four i16 each, quaternion × 32767.
 pub fn rotations<'a>(transforms: impl Iterator<Item = &'a Transform>) -> Vec<u8> {
-    transforms.flat_map(|one| quaternion(one)).flat_map(i16::to_le_bytes).collect()
+    transforms.flat_map(quaternion).flat_map(i16::to_le_bytes).collect()
 }
 
 /// Joint poses as seven i16 each: position × 32767 / extent, quaternion × 32767.
