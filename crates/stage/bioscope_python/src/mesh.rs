@@ -22,7 +22,7 @@ impl Mesh {
         positions, triangles, *, normals=None, uvs=None, colors=None, joints=None,
         joint_indices=None, joint_weights=None
     ))]
-    #[allow(clippy::too_many_arguments)] // Keywords of a Python call.
+    #[allow(clippy::too_many_arguments, clippy::type_complexity)] // Keywords of a Python call.
     fn new(
         positions: PyReadonlyArray2<'_, f32>,
         triangles: PyReadonlyArray2<'_, u32>,

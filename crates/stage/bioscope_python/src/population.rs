@@ -227,7 +227,7 @@ impl Parameters for Tunable {
 
     fn get(&self, name: &str) -> Option<f64> {
         self.descriptions.iter().find(|one| one.name == name)?;
-        Python::attach(|py| self.object.bind(py).getattr(name)?.extract().map_err(PyErr::from)).ok()
+        Python::attach(|py| self.object.bind(py).getattr(name)?.extract::<f64>()).ok()
     }
 
     fn set(&mut self, name: &str, value: f64) -> Result<()> {
