@@ -20,6 +20,9 @@ use crate::{Medium, Scene, Sky, Sun};
 /// Index of refraction of sea water against air.
 pub(crate) const REFRACTION: f32 = 1.34;
 
+/// Surfaces with less gloss than this (specular × (1 − roughness)) show no mirror images.
+const MATT: f32 = 0.01;
+
 /// All that is the same for every thing in the scene.
 #[derive(Clone, Debug)]
 pub(crate) struct Light {
@@ -216,12 +219,15 @@ pub(crate) fn reflected(
     let fresnel = finish.specular
         + (1.0 - finish.specular) * 0.3 * (1.0 - finish.roughness) * square * square * grazing;
     let mirror = normal * (2.0 * towards) - to_eye;
-    let image = ambient(light, mirror, depth, dim) * (fresnel * (1.0 - 0.6 * finish.roughness));
-    let mut radiance = finish.albedo * (even + around) * (1.0 - fresnel) + image;
-    if facing > 0.0 {
-        radiance += sunlight * (facing * highlight(finish, fresnel, normal, unit(sun + to_eye)));
+    let even = finish.albedo * (even + around) * (1.0 - fresnel);
+    if finish.specular * (1.0 - finish.roughness) < MATT {
+        return even + around * (fresnel * (1.0 - 0.6 * finish.roughness));
     }
-    radiance
+    let image = ambient(light, mirror, depth, dim) * (fresnel * (1.0 - 0.6 * finish.roughness));
+    if facing <= 0.0 {
+        return even + image;
+    }
+    even + image + sunlight * (facing * highlight(finish, fresnel, normal, unit(sun + to_eye)))
 }
 
 /// Reflected share of sunlight per steradian for the unit vector `half` between sun and eye

@@ -9,7 +9,7 @@ use super::lens::Window;
 use super::prepare::{Prepared, Thing};
 
 /// Texels per side.
-const SIZE: usize = 1536;
+const SIZE: usize = 1024;
 
 /// Rows worked on at a time.
 const BAND: usize = 128;

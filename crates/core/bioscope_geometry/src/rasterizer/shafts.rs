@@ -1,4 +1,4 @@
-//! Beams of sunlight in the water: a march along each ray of a quarter-size picture, through the
+//! Beams of sunlight in the water: a march along each ray of a small picture, through the
 //! pattern of the waves and the shadows of things.
 
 use bioscope_core::Vec3;
@@ -11,10 +11,10 @@ use super::shade::Shader;
 use super::view::View;
 
 /// Pixels per side of a cell that is marched once.
-const CELL: usize = 4;
+const CELL: usize = 5;
 
 /// Steps along a ray.
-const STEPS: usize = 12;
+const STEPS: usize = 11;
 
 /// Beams are followed this far, metres.
 const REACH: f32 = 16.0;

@@ -74,23 +74,23 @@ impl Mipmap {
         let u = (uv[0] - whole(uv[0])) * level.width as f32;
         let v = (uv[1] - whole(uv[1])) * level.height as f32;
         if smooth {
-            return self.bilinear(
-                level,
-                u + level.width as f32 - 0.5,
-                v + level.height as f32 - 0.5,
-            );
+            return self.bilinear(level, u + 0.5, v + 0.5);
         }
         let (column, row) = ((u as usize).min(level.width - 1), (v as usize).min(level.height - 1));
         self.decode(level.pixels[row * level.width + column])
     }
 
+    /// Mean of the four texels round a place, given in texels from half a texel before the first.
     #[inline(always)]
     fn bilinear(&self, level: &Level, x: f32, y: f32) -> [f32; 4] {
-        let (column, row) = (x as usize, y as usize);
+        let (column, row) = ((x as usize).min(level.width), (y as usize).min(level.height));
         let (u, v) = (x - column as f32, y - row as f32);
-        let (left, right) = (column % level.width, (column + 1) % level.width);
-        let (top, bottom) =
-            (row % level.height * level.width, (row + 1) % level.height * level.width);
+        let around = |place: usize, count: usize| {
+            let before = if place == 0 { count - 1 } else { place - 1 };
+            [before, if place == count { 0 } else { place }]
+        };
+        let [left, right] = around(column, level.width);
+        let [top, bottom] = around(row, level.height).map(|row| row * level.width);
         let corners = [top + left, top + right, bottom + left, bottom + right];
         let shares = [(1.0 - u) * (1.0 - v), u * (1.0 - v), (1.0 - u) * v, u * v];
         let mut sum = [0.0; 4];
