@@ -216,6 +216,13 @@ impl Lens {
         } else if a.away < self.near || b.away < self.near || c.away < self.near {
             (low, high) = self.clipped(corners)?;
         }
+        let missed = high[0] + margin < 0.0
+            || low[0] - margin > self.width as f32
+            || high[1] + margin < rows[0] as f32
+            || low[1] - margin > rows[1] as f32;
+        if missed {
+            return None;
+        }
         let bound = |value: f32, limit: u32| (value.max(0.0) as u32).min(limit);
         let columns = [
             bound(low[0] + 0.5 - margin, self.width as u32),

@@ -304,6 +304,12 @@ impl Look<'_> {
         nearness: [f32; 4],
         last: &mut Option<Last<'a>>,
     ) -> (Rgb, f32, Id) {
+        let corner = [pixel[0] * 2, pixel[1] * 2];
+        if owners.iter().all(|&owner| owner == owners[0])
+            && let Some(ray) = self.lens.ray(corner[0], corner[1])
+        {
+            return self.sample(owners[0], nearness[0], ray, last);
+        }
         let mut shares = [0.25f32; 4];
         for sample in 1..4 {
             let same = |other: &usize| {
@@ -322,7 +328,7 @@ impl Look<'_> {
             if shares[sample] == 0.0 {
                 continue;
             }
-            let place = [pixel[0] * 2 + sample % 2, pixel[1] * 2 + sample / 2];
+            let place = [corner[0] + sample % 2, corner[1] + sample / 2];
             let Some(ray) = self.lens.ray(place[0], place[1]) else { continue };
             let (radiance, depth, identity) =
                 self.sample(owners[sample], nearness[sample], ray, last);

@@ -32,6 +32,9 @@ const CELLS: f32 = 5.0;
 /// How far sunlight is thrown, in tiles per unit of slope.
 const FOCUS: f32 = 0.13;
 
+/// Entries per side of the table of slopes.
+const SMOOTH: usize = 64;
+
 /// Beyond this distance the surface looks flat, metres.
 const FLAT: f32 = 150.0;
 
@@ -41,7 +44,7 @@ pub(crate) struct Waves {
     /// Tiles per metre.
     frequency: f32,
     size: usize,
-    /// Slope of the surface along x and z.
+    /// Slope of the surface along x and z, on a coarse grid of its own: it is smooth, and read often.
     slopes: Vec<[f32; 2]>,
     /// Brightness of caustics, mean 1; full size first, then halved sizes.
     levels: Vec<Vec<f32>>,
@@ -50,7 +53,12 @@ pub(crate) struct Waves {
 impl Waves {
     /// No waves.
     pub fn still() -> Self {
-        Self { frequency: 1.0, size: 1, slopes: vec![[0.0; 2]], levels: vec![vec![1.0]] }
+        Self {
+            frequency: 1.0,
+            size: 1,
+            slopes: vec![[0.0; 2]; SMOOTH * SMOOTH],
+            levels: vec![vec![1.0]],
+        }
     }
 
     /// The waves at a time in seconds; `size` is a power of two. Without water all is still.
@@ -59,13 +67,12 @@ impl Waves {
             return Self::still();
         }
         let frequency = 1.0 / (CELLS * light.caustic_scale);
-        let slopes = slopes(time, size);
-        let mut levels = vec![gathered(&slopes, size)];
+        let mut levels = vec![gathered(&slopes(time, size), size)];
         while levels[levels.len() - 1].len() > 16 {
             let last = &levels[levels.len() - 1];
             levels.push(halved(last, size >> (levels.len() - 1)));
         }
-        Self { frequency, size, slopes, levels }
+        Self { frequency, size, slopes: slopes(time, SMOOTH), levels }
     }
 
     /// Unit normal of the surface (upward) at a point of it, seen from `distance` metres; calmer with
@@ -76,16 +83,13 @@ impl Waves {
             return Vec3::Y;
         }
         let calm = 0.5 / (1.0 + distance * 0.06) * (1.0 - distance / FLAT);
-        let place = Place::new(point.x * self.frequency, point.z * self.frequency, self.size);
-        let [x, z] = place.mix(|index| self.slopes[index].into()).to_array();
+        let (x, z) = (point.x * self.frequency, point.z * self.frequency);
+        let place = Place::new(x, z, SMOOTH);
+        let [x_slope, z_slope] = place.mix(|index| self.slopes[index].into()).to_array();
         // A second, wider set of waves hides the repetition.
-        let place = Place::new(
-            point.z * self.frequency * 0.31,
-            -point.x * self.frequency * 0.31,
-            self.size,
-        );
+        let place = Place::new(z * 0.31, -x * 0.31, SMOOTH);
         let [wide_x, wide_z] = place.mix(|index| self.slopes[index].into()).to_array();
-        unit(Vec3::new(-(x + wide_x) * calm, 1.0, -(z + wide_z) * calm))
+        unit(Vec3::new(-(x_slope + wide_x) * calm, 1.0, -(z_slope + wide_z) * calm))
     }
 
     /// Brightness of sunlight at a point `depth` metres below the surface, mean 1: faint just below
