@@ -277,14 +277,16 @@ impl Look<'_> {
     /// Four samples per pixel; samples of one thing at about one distance are colored once.
     #[inline(always)]
     fn color_smoothly(&self, strip: &mut Strip, sheet: &Sheet) {
-        let (owners, nearness, stride) = (sheet.owners(), sheet.nearness(), sheet.stride());
         let mut last = None;
         for row in strip.rows[0]..strip.rows[1] {
-            let first = (row - strip.rows[0]) * 2 * stride;
+            let first = (row - strip.rows[0]) * 2 * sheet.stride();
+            let width = strip.width * 2;
+            let owners =
+                [first, first + sheet.stride()].map(|start| &sheet.owners()[start..start + width]);
+            let nearness = [first, first + sheet.stride()]
+                .map(|start| &sheet.nearness()[start..start + width]);
             for column in 0..strip.width {
-                let four = [0, 1, stride, stride + 1].map(|step| first + column * 2 + step);
-                let owners = four.map(|place| owners[place]);
-                let nearness = four.map(|place| nearness[place]);
+                let (owners, nearness) = (four(owners, column), four(nearness, column));
                 let index = (row - strip.rows[0]) * strip.width + column;
                 let (color, depth, identity) =
                     self.blend([column, row], owners, nearness, &mut last);
@@ -384,6 +386,13 @@ impl Look<'_> {
         let color = self.shader.surface(&last.patch, direction, distance);
         (color, distance, last.id)
     }
+}
+
+/// Values of a pixel's four samples, from the two rows that hold them.
+#[inline(always)]
+fn four<T: Copy>([upper, lower]: [&[T]; 2], column: usize) -> [T; 4] {
+    let (upper, lower) = (&upper[column * 2..column * 2 + 2], &lower[column * 2..column * 2 + 2]);
+    [upper[0], upper[1], lower[0], lower[1]]
 }
 
 #[cfg(test)]

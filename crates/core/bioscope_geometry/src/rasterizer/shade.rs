@@ -68,8 +68,8 @@ impl Patch<'_> {
 
     /// Color and opacity of the texture there; white without one. `pitch` is the angle between pixels.
     #[inline(always)]
-    fn texel(&self, shares: &Shares, direction: Vec3, pitch: f32, smooth: bool) -> [f32; 4] {
-        let Some(picture) = self.picture else { return [1.0; 4] };
+    fn texel(&self, shares: &Shares, direction: Vec3, pitch: f32, smooth: bool) -> Rgb {
+        let Some(picture) = self.picture else { return Rgb::ONE };
         let facing = self.area.dot(direction).abs().max(1e-12);
         let square = shares.mix(self.corners).length_squared();
         let footprint = (square * self.texels / facing).sqrt() * pitch;
@@ -139,8 +139,7 @@ impl<'a> Shader<'a> {
             normal = -normal;
         }
         let smooth = self.prepared.options.smooth;
-        let [red, green, blue, _] = patch.texel(&shares, direction, self.pitch, smooth);
-        let mut albedo = patch.color * rgb([red, green, blue]);
+        let mut albedo = patch.color * patch.texel(&shares, direction, self.pitch, smooth);
         if let Some(colors) = patch.colors {
             albedo *= rgb(shares.mix(colors).to_array());
         }
@@ -202,6 +201,6 @@ impl<'a> Shader<'a> {
     /// Whether the texture is opaque where a ray meets a patch.
     pub fn solid(&self, patch: &Patch, ray: Vec3) -> bool {
         let shares = patch.shares(ray);
-        patch.texel(&shares, ray, self.pitch, self.prepared.options.smooth)[3] >= 0.5
+        patch.texel(&shares, ray, self.pitch, self.prepared.options.smooth).w >= 0.5
     }
 }

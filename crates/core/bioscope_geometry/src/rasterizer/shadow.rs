@@ -111,31 +111,26 @@ impl Shadow {
     }
 
     /// Share of the sun's disc seen from a surface point with this normal (on the sun's side), softened
-    /// over a few texels; 1 outside the map.
+    /// over a texel; 1 outside the map.
     #[inline(always)]
     pub fn lit(&self, point: Vec3, normal: Vec3) -> f32 {
         let texel = 1.0 / self.frame.per_meter;
         let place = self.frame.place(point + normal * (2.0 * texel));
-        let (x, y) = (place.x - 1.0, place.y - 1.0);
-        if !(x >= 0.0 && y >= 0.0 && x < (SIZE - 4) as f32 && y < (SIZE - 4) as f32) {
+        let (x, y) = (place.x - 0.5, place.y - 0.5);
+        if !(x >= 0.0 && y >= 0.0 && x < (SIZE - 2) as f32 && y < (SIZE - 2) as f32) {
             return 1.0;
         }
         let (column, row) = (x as usize, y as usize);
         let (u, v) = (x - column as f32, y - row as f32);
         let height = place.z + texel;
-        let across = [1.0 - u, 1.0, u];
-        let along = [1.0 - v, 1.0, v];
-        let mut sum = 0.0;
-        for (down, weight) in along.into_iter().enumerate() {
-            let first = (row + down) * SIZE + column;
-            let line = &self.heights[first..first + 3];
-            let mut part = 0.0;
-            for (share, &blocker) in across.into_iter().zip(line) {
-                part += if blocker <= height { share } else { 0.0 };
-            }
-            sum += part * weight;
-        }
-        sum * 0.25
+        let lit = |blocker: f32| if blocker <= height { 1.0 } else { 0.0 };
+        let mixed = |line: &[f32]| {
+            let (first, second) = (lit(line[0]), lit(line[1]));
+            first + (second - first) * u
+        };
+        let first = row * SIZE + column;
+        let (near, far) = (mixed(&self.heights[first..]), mixed(&self.heights[first + SIZE..]));
+        near + (far - near) * v
     }
 }
 

@@ -45,7 +45,7 @@ pub(crate) struct Waves {
     frequency: f32,
     size: usize,
     /// Slope of the surface along x and z, on a coarse grid of its own: it is smooth, and read often.
-    slopes: Vec<[f32; 2]>,
+    slopes: Box<[[f32; 2]; SMOOTH * SMOOTH]>,
     /// Brightness of caustics, mean 1; full size first, then halved sizes.
     levels: Vec<Vec<f32>>,
 }
@@ -56,7 +56,7 @@ impl Waves {
         Self {
             frequency: 1.0,
             size: 1,
-            slopes: vec![[0.0; 2]; SMOOTH * SMOOTH],
+            slopes: Box::new([[0.0; 2]; SMOOTH * SMOOTH]),
             levels: vec![vec![1.0]],
         }
     }
@@ -72,7 +72,9 @@ impl Waves {
             let last = &levels[levels.len() - 1];
             levels.push(halved(last, size >> (levels.len() - 1)));
         }
-        Self { frequency, size, slopes: slopes(time, SMOOTH), levels }
+        let mut coarse = Box::new([[0.0; 2]; SMOOTH * SMOOTH]);
+        coarse.copy_from_slice(&slopes(time, SMOOTH));
+        Self { frequency, size, slopes: coarse, levels }
     }
 
     /// Unit normal of the surface (upward) at a point of it, seen from `distance` metres; calmer with
@@ -85,10 +87,10 @@ impl Waves {
         let calm = 0.5 / (1.0 + distance * 0.06) * (1.0 - distance / FLAT);
         let (x, z) = (point.x * self.frequency, point.z * self.frequency);
         let place = Place::new(x, z, SMOOTH);
-        let [x_slope, z_slope] = place.mix(|index| self.slopes[index].into()).to_array();
+        let [x_slope, z_slope] = [0, 1].map(|axis| place.mix(|index| self.slopes[index][axis]));
         // A second, wider set of waves hides the repetition.
         let place = Place::new(z * 0.31, -x * 0.31, SMOOTH);
-        let [wide_x, wide_z] = place.mix(|index| self.slopes[index].into()).to_array();
+        let [wide_x, wide_z] = [0, 1].map(|axis| place.mix(|index| self.slopes[index][axis]));
         unit(Vec3::new(-(x_slope + wide_x) * calm, 1.0, -(z_slope + wide_z) * calm))
     }
 
@@ -111,7 +113,7 @@ impl Waves {
         let z = (point.z + light.sun_below.z * along) * self.frequency;
         let level = (softness.ilog2() as usize).min(self.levels.len() - 1);
         let values = &self.levels[level];
-        Place::new(x, z, self.size >> level).mix(|index| glam::Vec2::splat(values[index])).x
+        Place::new(x, z, self.size >> level).mix(|index| values[index])
     }
 }
 
@@ -139,7 +141,7 @@ impl Place {
     }
 
     #[inline(always)]
-    fn mix(&self, value: impl Fn(usize) -> glam::Vec2) -> glam::Vec2 {
+    fn mix(&self, value: impl Fn(usize) -> f32) -> f32 {
         let [a, b, c, d] = self.corners.map(value);
         let near = a + (b - a) * self.u;
         let far = c + (d - c) * self.u;
