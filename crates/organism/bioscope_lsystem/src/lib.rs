@@ -9,6 +9,7 @@
 mod context;
 mod derivation;
 mod diagnostic;
+mod environment;
 mod expression;
 mod geometry;
 mod interpretation;
@@ -22,6 +23,7 @@ mod turtle;
 
 pub use derivation::{Derivation, DerivationError, Limits};
 pub use diagnostic::{Diagnostic, Diagnostics, Place};
+pub use environment::{Environment, EnvironmentError, Following, Reply, Request};
 pub use geometry::{MeshOptions, Palette, PlantShape, SkeletonOptions};
 pub use interpretation::{Anchor, Axis, Ball, Contour, Interpretation, Polygon, Segment, Surface};
 pub use model::{Alphabet, LSystem, ModuleKind};
