@@ -4,6 +4,7 @@ use bioscope_core::Vec3;
 use wide::{f32x4, u32x4};
 
 use super::lens::{BLOCK, Lens, Round, Window};
+use super::texture::Level;
 
 /// Windows of up to so many groups of samples are asked without looking at blocks first.
 const SMALL: u32 = 24;
@@ -11,8 +12,15 @@ const SMALL: u32 = 24;
 /// Owner of samples that see nothing.
 pub(crate) const NOBODY: u32 = u32::MAX;
 
-/// Whether a surface with holes is solid at a column and row.
-pub(crate) type Solid<'a> = dyn Fn(usize, usize) -> bool + 'a;
+/// A triangle whose texture has holes: texture coordinates along a ray r are (u·r, v·r) / whole·r; all
+/// linear as in [`Tests`].
+#[derive(Clone, Copy)]
+pub(crate) struct Holes<'a> {
+    pub u: Vec3,
+    pub v: Vec3,
+    pub whole: Vec3,
+    pub level: &'a Level,
+}
 
 /// Nearness and owner of the samples of some rows, four samples at a time. Nearness is 1/distance for a
 /// fish-eye, 1/distance along the axis for a perspective, height along the sun for a shadow.
@@ -52,6 +60,24 @@ impl Tests {
     }
 }
 
+impl Holes<'_> {
+    /// The lanes `asked` for that are not in a hole; `along` gives the values of a test there.
+    #[inline(always)]
+    fn kept(&self, asked: f32x4, along: impl Fn(Vec3) -> f32x4) -> f32x4 {
+        if asked.none() {
+            return asked;
+        }
+        let whole = along(self.whole);
+        let (u, v) = ((along(self.u) / whole).to_array(), (along(self.v) / whole).to_array());
+        let bits = asked.to_bitmask();
+        let lanes: [u32; 4] = std::array::from_fn(|lane| {
+            let asked = bits >> lane & 1 == 1;
+            if asked && self.level.solid([u[lane], v[lane]]) { u32::MAX } else { 0 }
+        });
+        bytemuck::cast(lanes)
+    }
+}
+
 /// A ray exactly on a side belongs to one of the two triangles that share it: the one whose test
 /// vector points to the positive half of the directions.
 #[inline(always)]
@@ -88,8 +114,8 @@ impl Sheet {
         self.groups * 4
     }
 
-    /// Covers the samples of a triangle for which it is the nearest; `solid` can still refuse a
-    /// sample (holes), given its column and row.
+    /// Covers the samples of a triangle for which it is the nearest, and which are not in its
+    /// holes.
     #[inline(always)]
     pub fn cover(
         &mut self,
@@ -97,11 +123,11 @@ impl Sheet {
         window: &Window,
         tests: &Tests,
         owner: u32,
-        solid: Option<&Solid>,
+        holes: Option<&Holes>,
     ) {
         match &lens.round {
-            None => self.cover_flat(window, tests, owner, solid),
-            Some(round) => self.cover_round(round, window, tests, owner, solid),
+            None => self.cover_flat(window, tests, owner, holes),
+            Some(round) => self.cover_round(round, window, tests, owner, holes),
         }
     }
 
@@ -112,7 +138,7 @@ impl Sheet {
         window: &Window,
         tests: &Tests,
         owner: u32,
-        solid: Option<&Solid>,
+        holes: Option<&Holes>,
     ) {
         let steps = f32x4::from([0.0, 1.0, 2.0, 3.0]);
         let [first, last] = [window.columns[0] / 4, window.columns[1].div_ceil(4)];
@@ -149,8 +175,9 @@ impl Sheet {
                 let inside = tests.inside(values);
                 if inside.any() {
                     let nearness = columns * tests.plane.x + all[3];
-                    let solid = solid.map(|solid| (solid, group * 4, row));
-                    self.settle(line + group as usize, inside, nearness, tests, owner, solid);
+                    let along = |test: Vec3| columns * test.x + (test.y * row as f32 + test.z);
+                    let keep = |wins| holes.map_or(wins, |holes| holes.kept(wins, along));
+                    self.settle(line + group as usize, inside, nearness, tests, owner, keep);
                 }
             }
         }
@@ -164,12 +191,12 @@ impl Sheet {
         window: &Window,
         tests: &Tests,
         owner: u32,
-        solid: Option<&Solid>,
+        holes: Option<&Holes>,
     ) {
         let [first, last] = [window.columns[0] / 4, window.columns[1].div_ceil(4)];
         let rows = window.rows;
         if (last - first) * (rows[1] - rows[0]) <= SMALL {
-            self.cover_rays(round, [first, last], rows, tests, owner, solid);
+            self.cover_rays(round, [first, last], rows, tests, owner, holes);
             return;
         }
         let widths = tests.sides.map(|side| side.length_squared().sqrt());
@@ -183,7 +210,7 @@ impl Sheet {
                 }
                 let rows = [rows[0].max(down * BLOCK), rows[1].min((down + 1) * BLOCK)];
                 let groups = [first.max(aside * 2), last.min(aside * 2 + 2)];
-                self.cover_rays(round, groups, rows, tests, owner, solid);
+                self.cover_rays(round, groups, rows, tests, owner, holes);
             }
         }
     }
@@ -196,7 +223,7 @@ impl Sheet {
         rows: [u32; 2],
         tests: &Tests,
         owner: u32,
-        solid: Option<&Solid>,
+        holes: Option<&Holes>,
     ) {
         for row in rows[0]..rows[1] {
             let line = (row as usize - self.first_row) * self.groups;
@@ -206,15 +233,9 @@ impl Sheet {
                 let along = |test: Vec3| x * test.x + y * test.y + z * test.z;
                 let inside = tests.inside(tests.sides.map(along));
                 if inside.any() {
-                    let solid = solid.map(|solid| (solid, group * 4, row));
-                    self.settle(
-                        line + group as usize,
-                        inside,
-                        along(tests.plane),
-                        tests,
-                        owner,
-                        solid,
-                    );
+                    let keep = |wins| holes.map_or(wins, |holes| holes.kept(wins, along));
+                    let nearness = along(tests.plane);
+                    self.settle(line + group as usize, inside, nearness, tests, owner, keep);
                 }
             }
         }
@@ -228,14 +249,11 @@ impl Sheet {
         nearness: f32x4,
         tests: &Tests,
         owner: u32,
-        solid: Option<(&Solid, u32, u32)>,
+        keep: impl Fn(f32x4) -> f32x4,
     ) {
         let old = self.nearness[index];
-        let mut wins =
-            inside & nearness.simd_gt(old) & nearness.simd_le(f32x4::splat(tests.nearest));
-        if let Some((solid, column, row)) = solid {
-            wins = wins & kept(wins, column, row, solid);
-        }
+        let wins =
+            keep(inside & nearness.simd_gt(old) & nearness.simd_le(f32x4::splat(tests.nearest)));
         self.nearness[index] = wins.bitselect(nearness, old);
         let mask: u32x4 = bytemuck::cast(wins);
         self.owners[index] = mask.bitselect(u32x4::splat(owner), self.owners[index]);
@@ -251,14 +269,4 @@ fn narrow(span: &mut [f32; 2], slope: f32, start: f32) {
     } else if slope < 0.0 {
         span[1] = span[1].min(crossing + 2.0);
     }
-}
-
-/// Which lanes a surface with holes keeps.
-fn kept(wins: f32x4, column: u32, row: u32, solid: &Solid) -> f32x4 {
-    let bits = wins.to_bitmask();
-    let lanes: [u32; 4] = std::array::from_fn(|lane| {
-        let asked = bits >> lane & 1 == 1;
-        if asked && solid(column as usize + lane, row as usize) { u32::MAX } else { 0 }
-    });
-    bytemuck::cast(lanes)
 }

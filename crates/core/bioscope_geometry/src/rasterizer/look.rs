@@ -6,7 +6,7 @@ use bioscope_core::{Id, Vec3};
 use rayon::prelude::*;
 
 use super::arithmetic::{Rgb, channels};
-use super::cover::{NOBODY, Sheet, Tests};
+use super::cover::{Holes, NOBODY, Sheet, Tests};
 use super::lens::{Lens, Seen, Stand};
 use super::light::Eye;
 use super::prepare::{Prepared, Thing};
@@ -21,7 +21,10 @@ use crate::{Camera, Mesh};
 const SMALL: usize = 128 * 128;
 
 /// Rows per strip.
-const ROWS: usize = 40;
+const ROWS: usize = 72;
+
+/// Share of the visibility beyond which pixels are colored two by two.
+const HAZE: f32 = 0.2;
 
 /// Things that would be smaller than this many pixels are left out.
 const LEAST: f32 = 0.3;
@@ -44,6 +47,8 @@ struct Look<'a> {
     lens: &'a Lens,
     /// Samples per pixel and direction.
     samples: usize,
+    /// Nearness below which haze hides fine differences.
+    haze: f32,
     draws: Vec<Draw>,
     spots: Vec<Spot>,
 }
@@ -51,7 +56,7 @@ struct Look<'a> {
 /// The patch that was colored last.
 struct Last<'a> {
     owner: u32,
-    id: Id,
+    draw: &'a Draw,
     patch: Patch<'a>,
 }
 
@@ -128,7 +133,8 @@ impl Prepared {
         let shader = Shader { prepared: self, stand, eye, pitch: lens.pitch() * samples as f32 };
         let spots = spots(self, &shader, lens, samples);
         let draws = self.draws(lens, &stand, samples);
-        Look { shader, lens, samples, draws, spots }
+        let haze = 1.0 / (HAZE * self.light.visibility());
+        Look { shader, lens, samples, haze, draws, spots }
     }
 
     /// What may be seen: not outside the view, not lost in the haze, not too small.
@@ -227,12 +233,17 @@ impl Look<'_> {
                 continue;
             }
             let corners = corners.map(|corner| corner.point);
-            let patch = self.shader.bare_patch(thing, mesh, *triangle, corners);
-            let solid = |column: usize, row: usize| {
-                self.lens.ray(column, row).is_some_and(|ray| self.shader.solid(&patch, ray))
-            };
-            sheet.cover(self.lens, &window, &tests, owner, Some(&solid));
+            let holes = self.holes(&self.shader.bare_patch(thing, mesh, *triangle, corners));
+            sheet.cover(self.lens, &window, &tests, owner, holes.as_ref());
         }
+    }
+
+    /// Where the texture of a patch given in camera space has holes.
+    #[inline(always)]
+    fn holes<'a>(&self, patch: &Patch<'a>) -> Option<Holes<'a>> {
+        let [u, v, whole] = patch.texture_planes().map(|test| self.lens.coefficients(test));
+        let smooth = self.shader.prepared.options.smooth;
+        Some(Holes { u, v, whole, level: patch.level(self.shader.pitch, smooth)? })
     }
 
     /// The tests of a triangle given in camera space; none if it is seen from behind (unless `both`
@@ -274,20 +285,27 @@ impl Look<'_> {
         }
     }
 
-    /// Four samples per pixel; samples of one thing at about one distance are colored once.
+    /// Four samples per pixel; samples of one thing at about one distance are colored once, and in the haze
+    /// pixels of one thing two by two.
     #[inline(always)]
     fn color_smoothly(&self, strip: &mut Strip, sheet: &Sheet) {
         let mut last = None;
+        let samples = Samples { sheet, first_row: strip.rows[0] };
         for row in strip.rows[0]..strip.rows[1] {
-            let first = (row - strip.rows[0]) * 2 * sheet.stride();
-            let width = strip.width * 2;
-            let owners =
-                [first, first + sheet.stride()].map(|start| &sheet.owners()[start..start + width]);
-            let nearness = [first, first + sheet.stride()]
-                .map(|start| &sheet.nearness()[start..start + width]);
             for column in 0..strip.width {
-                let (owners, nearness) = (four(owners, column), four(nearness, column));
+                let (owners, nearness) = samples.of(column, row);
+                let corner = [column & !1, (row & !1).max(strip.rows[0])];
                 let index = (row - strip.rows[0]) * strip.width + column;
+                if corner != [column, row] && nearness[0] < self.haze {
+                    let thing = [owners, samples.of(corner[0], corner[1]).0];
+                    if self.is_one_thing(thing.as_flattened(), &last) {
+                        let known = (corner[1] - strip.rows[0]) * strip.width + corner[0];
+                        strip.color[index] = strip.color[known];
+                        strip.depth[index] = strip.depth[known];
+                        strip.identity[index] = strip.identity[known];
+                        continue;
+                    }
+                }
                 let (color, depth, identity) =
                     self.blend([column, row], owners, nearness, &mut last);
                 strip.color[index] = channels(color);
@@ -295,6 +313,16 @@ impl Look<'_> {
                 strip.identity[index] = identity;
             }
         }
+    }
+
+    /// Whether samples with these owners see the same thing, or nothing.
+    #[inline(always)]
+    fn is_one_thing(&self, owners: &[u32], last: &Option<Last>) -> bool {
+        if owners[0] == NOBODY {
+            return owners.iter().all(|&owner| owner == NOBODY);
+        }
+        let draw = self.draw_of(owners[0], last);
+        owners.iter().all(|owner| (draw.first..draw.last).contains(owner))
     }
 
     /// Mean color of a pixel's four samples; depth and identity of the thing that most of them see.
@@ -317,7 +345,7 @@ impl Look<'_> {
             let same = |other: &usize| {
                 let (owners, nearness) =
                     ([owners[sample], owners[*other]], [nearness[sample], nearness[*other]]);
-                shares[*other] > 0.0 && self.alike(owners, nearness)
+                shares[*other] > 0.0 && self.alike(owners, nearness, last)
             };
             if let Some(other) = (0..sample).find(same) {
                 shares[other] += 0.25;
@@ -344,19 +372,25 @@ impl Look<'_> {
 
     /// Whether two samples see the same thing at about the same distance.
     #[inline(always)]
-    fn alike(&self, owners: [u32; 2], nearness: [f32; 2]) -> bool {
+    fn alike(&self, owners: [u32; 2], nearness: [f32; 2], last: &Option<Last>) -> bool {
         if owners[0] == owners[1] {
             return true;
         }
         if owners.contains(&NOBODY) || (nearness[0] - nearness[1]).abs() > 0.02 * nearness[0] {
             return false;
         }
-        let draw = self.draw_of(owners[0]);
+        let draw = self.draw_of(owners[0], last);
         (draw.first..draw.last).contains(&owners[1])
     }
 
+    /// The draw of a triangle; neighboring samples often share that of the `last` one.
     #[inline(always)]
-    fn draw_of(&self, owner: u32) -> &Draw {
+    fn draw_of<'a>(&'a self, owner: u32, last: &Option<Last<'a>>) -> &'a Draw {
+        if let Some(last) = last
+            && (last.draw.first..last.draw.last).contains(&owner)
+        {
+            return last.draw;
+        }
         &self.draws[self.draws.partition_point(|draw| draw.first <= owner) - 1]
     }
 
@@ -377,22 +411,33 @@ impl Look<'_> {
         let along = if self.lens.round.is_some() { 1.0 } else { -ray.z };
         let distance = 1.0 / (nearness * along);
         if last.as_ref().is_none_or(|last| last.owner != owner) {
-            let draw = self.draw_of(owner);
+            let draw = self.draw_of(owner, last);
             let triangle = (owner - draw.first) as usize;
             let patch = self.shader.patch(&draw.thing, draw.level, triangle);
-            *last = Some(Last { owner, id: draw.thing.id, patch });
+            *last = Some(Last { owner, draw, patch });
         }
         let Some(last) = last else { return (Rgb::ZERO, f32::INFINITY, 0) };
         let color = self.shader.surface(&last.patch, direction, distance);
-        (color, distance, last.id)
+        (color, distance, last.draw.thing.id)
     }
 }
 
-/// Values of a pixel's four samples, from the two rows that hold them.
-#[inline(always)]
-fn four<T: Copy>([upper, lower]: [&[T]; 2], column: usize) -> [T; 4] {
-    let (upper, lower) = (&upper[column * 2..column * 2 + 2], &lower[column * 2..column * 2 + 2]);
-    [upper[0], upper[1], lower[0], lower[1]]
+/// The samples of a strip whose rows begin at `first_row`.
+struct Samples<'a> {
+    sheet: &'a Sheet,
+    first_row: usize,
+}
+
+impl Samples<'_> {
+    /// Owners and nearness of a pixel's four samples.
+    #[inline(always)]
+    fn of(&self, column: usize, row: usize) -> ([u32; 4], [f32; 4]) {
+        let stride = self.sheet.stride();
+        let upper = (row - self.first_row) * 2 * stride + column * 2;
+        let four = [upper, upper + 1, upper + stride, upper + stride + 1];
+        let (owners, nearness) = (self.sheet.owners(), self.sheet.nearness());
+        (four.map(|place| owners[place]), four.map(|place| nearness[place]))
+    }
 }
 
 #[cfg(test)]

@@ -35,7 +35,7 @@ impl Options {
 
     /// For stills and film.
     pub fn picture() -> Self {
-        Self { smooth: true, shadows: true, detail: 1.0 }
+        Self { smooth: true, shadows: true, detail: 0.7 }
     }
 }
 

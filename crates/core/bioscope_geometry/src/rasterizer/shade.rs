@@ -6,7 +6,7 @@ use super::arithmetic::{Rgb, rgb, unit};
 use super::lens::Stand;
 use super::light::{Eye, Finish, Light, arriving, reflected, sky, sun_disc, sunlight};
 use super::prepare::{Prepared, Thing};
-use super::texture::Mipmap;
+use super::texture::{Level, Mipmap};
 use crate::{Material, Mesh};
 
 /// Colors what one eye sees.
@@ -54,7 +54,7 @@ impl Shares {
     }
 }
 
-impl Patch<'_> {
+impl<'a> Patch<'a> {
     /// Shares of the corners where a ray meets the patch.
     #[inline(always)]
     fn shares(&self, direction: Vec3) -> Shares {
@@ -74,6 +74,25 @@ impl Patch<'_> {
         let square = shares.mix(self.corners).length_squared();
         let footprint = (square * self.texels / facing).sqrt() * pitch;
         picture.read(shares.mix_uv(self.uvs), footprint, smooth)
+    }
+
+    /// The level of the texture that suits the patch's middle.
+    #[inline(always)]
+    pub fn level(&self, pitch: f32, smooth: bool) -> Option<&'a Level> {
+        let middle = (self.corners[0] + self.corners[1] + self.corners[2]) * (1.0 / 3.0);
+        let square = middle.length_squared();
+        let facing = self.area.dot(middle).abs().max(1e-12);
+        let footprint = (square * square.sqrt() * self.texels / facing).sqrt() * pitch;
+        Some(self.picture?.level(footprint, smooth))
+    }
+
+    /// Vectors whose products with a ray are u, v and 1, all multiplied by the same number.
+    #[inline(always)]
+    pub fn texture_planes(&self) -> [Vec3; 3] {
+        let [a, b, c] = self.planes;
+        let mix = |[x, y, z]: [f32; 3]| a * x + b * y + c * z;
+        let uvs = self.uvs;
+        [mix(uvs.map(|uv| uv[0])), mix(uvs.map(|uv| uv[1])), mix([1.0; 3])]
     }
 }
 
@@ -196,11 +215,5 @@ impl<'a> Shader<'a> {
             sky(light, direction) + sun_disc(light, direction, 0.0)
         };
         self.arriving(direction, f32::INFINITY, radiance)
-    }
-
-    /// Whether the texture is opaque where a ray meets a patch.
-    pub fn solid(&self, patch: &Patch, ray: Vec3) -> bool {
-        let shares = patch.shares(ray);
-        patch.texel(&shares, ray, self.pitch, self.prepared.options.smooth).w >= 0.5
     }
 }

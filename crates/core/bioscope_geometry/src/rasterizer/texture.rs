@@ -41,8 +41,9 @@ pub(crate) struct Mipmap {
 /// Linear color and opacity, 0 to 65535.
 type Texel = [u16; 4];
 
+/// The picture at one size.
 #[derive(Debug)]
-struct Level {
+pub(crate) struct Level {
     width: usize,
     height: usize,
     texels: Vec<Texel>,
@@ -72,12 +73,18 @@ impl Mipmap {
         self.levels[0].texels.len() as f32
     }
 
+    /// The level whose texels fit a reader that takes `footprint` of the finest at once.
+    #[inline(always)]
+    pub fn level(&self, footprint: f32, smooth: bool) -> &Level {
+        let level = rough_log2(footprint.max(1.0)) + if smooth { 0.3 } else { 0.5 };
+        &self.levels[(level as usize).min(self.levels.len() - 1)]
+    }
+
     /// Linear color, with opacity as the fourth number, at (u, v), for a reader that takes `footprint`
     /// texels at once: the nearest texel of the fitting level, or with `smooth` the bilinear mean in it.
     #[inline(always)]
     pub fn read(&self, uv: [f32; 2], footprint: f32, smooth: bool) -> Rgb {
-        let level = rough_log2(footprint.max(1.0)) + if smooth { 0.3 } else { 0.5 };
-        let level = &self.levels[(level as usize).min(self.levels.len() - 1)];
+        let level = self.level(footprint, smooth);
         let u = (uv[0] - whole(uv[0])) * level.width as f32;
         let v = (uv[1] - whole(uv[1])) * level.height as f32;
         if smooth {
@@ -89,6 +96,15 @@ impl Mipmap {
 }
 
 impl Level {
+    /// Whether the nearest texel is opaque.
+    #[inline(always)]
+    pub fn solid(&self, [u, v]: [f32; 2]) -> bool {
+        let column = ((u - whole(u)) * self.width as f32) as usize;
+        let row = ((v - whole(v)) * self.height as f32) as usize;
+        let index = row.min(self.height - 1) * self.width + column.min(self.width - 1);
+        self.texels[index][3] > u16::MAX / 2
+    }
+
     /// Mean of the four texels round a place, given in texels from half a texel before the first.
     #[inline(always)]
     fn bilinear(&self, x: f32, y: f32) -> Rgb {
