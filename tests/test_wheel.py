@@ -47,7 +47,6 @@ def without_tools(programs):
     return kept | {"PATH": str(programs)}
 
 
-@pytest.mark.xfail(strict=True, reason="22 packages: typer has begun to require pydantic")
 def test_the_base_install_is_small(clean):
     _, packages, _ = clean
     assert len(packages) <= 20, packages

@@ -2,52 +2,61 @@
 
 from __future__ import annotations
 
+import math
 import secrets
 import signal
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Any
 
-import typer
-import typer.core
+import click
 
 import bioscope
 from bioscope import worlds
-from bioscope.errors import BioscopeError, InvalidValueError
+from bioscope.errors import BioscopeError
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from bioscope.world import World
 
 
-class Commands(typer.core.TyperGroup):
+class Commands(click.Group):
     """The commands, with failures turned into one message and an exit status."""
 
-    def invoke(self, ctx: Any) -> Any:
+    def invoke(self, ctx: click.Context) -> Any:
         """Run the command: status 1 if the work failed, 130 if it was interrupted."""
         try:
             return super().invoke(ctx)
         except KeyboardInterrupt:
             print("interrupted", file=sys.stderr)
-            raise typer.Exit(130) from None
+            raise click.exceptions.Exit(130) from None
         except (BioscopeError, OSError, MemoryError) as error:
             print(f"bioscope: {_told(error)}", file=sys.stderr)
-            raise typer.Exit(1) from None
+            raise click.exceptions.Exit(1) from None
+
+    def list_commands(self, ctx: click.Context) -> list[str]:
+        """Return the commands in the order in which they are written."""
+        del ctx
+        return list(self.commands)
 
 
-app = typer.Typer(
-    cls=Commands,
-    no_args_is_help=True,
-    add_completion=False,
-    pretty_exceptions_enable=False,
-    rich_markup_mode=None,
-    context_settings={"help_option_names": ["-h", "--help"]},
-)
+def positive(_ctx: click.Context, _param: click.Parameter, value: float) -> float:
+    """Refuse what is no finite number above 0."""
+    if not 0 < value < math.inf:
+        raise click.BadParameter(f"{value}: expected more than 0")
+    return value
 
-WorldName = Annotated[
-    str, typer.Argument(metavar="WORLD", help="A name from `bioscope list`, or a Python file.")
-]
-Seed = Annotated[int | None, typer.Option(min=0, max=2**64 - 1, help="Seed; drawn if not given.")]
-Seconds = Annotated[float, typer.Option(help="World time to run, in seconds.")]
+
+def command(name: str, example: str) -> Callable[[Callable[..., None]], click.Command]:
+    """Declare a command with an example at the end of its help."""
+    epilog = f"Example: {example}"
+    return app.command(name, epilog=epilog, no_args_is_help=False)
+
+
+def path_option(*names: str, **settings: Any) -> Callable[[Any], Any]:
+    """Declare an option that is a file or folder."""
+    return click.option(*names, type=click.Path(path_type=Path), **settings)
 
 
 def say(*words: object) -> None:
@@ -59,22 +68,38 @@ def say(*words: object) -> None:
 _quiet = False
 
 
-def _version(wanted: bool) -> None:
-    if wanted:
-        print(f"bioscope {bioscope.__version__}")
-        raise typer.Exit
-
-
-@app.callback()
-def options(
-    quiet: Annotated[bool, typer.Option("--quiet", "-q", help="Only results and errors.")] = False,
-    version: Annotated[
-        bool, typer.Option("--version", callback=_version, is_eager=True, help="Show the version.")
-    ] = False,
-) -> None:
+@click.group(
+    cls=Commands,
+    no_args_is_help=True,
+    context_settings={"help_option_names": ["-h", "--help"], "show_default": True},
+)
+@click.option("-q", "--quiet", is_flag=True, help="Only results and errors.")
+@click.version_option(bioscope.__version__, prog_name="bioscope", message="%(prog)s %(version)s")
+def app(quiet: bool) -> None:
     """Bring virtual worlds to life, watch, film and export them."""
     global _quiet
     _quiet = quiet
+
+
+world_name = click.argument("world")
+model_file = click.argument("file", type=click.Path(path_type=Path))
+seed_option = click.option(
+    "--seed", type=click.IntRange(0, 2**64 - 1), help="Seed; drawn if not given."
+)
+steps_option = click.option(
+    "--steps", type=click.IntRange(0), help="Derivation steps; as the file says, if not given."
+)
+
+
+def seconds_option(default: float) -> Callable[[Any], Any]:
+    """Declare `--seconds`."""
+    return click.option(
+        "--seconds",
+        type=float,
+        callback=positive,
+        default=default,
+        help="World time to run, in seconds.",
+    )
 
 
 def opened(name: str, seed: int | None) -> World:
@@ -85,19 +110,9 @@ def opened(name: str, seed: int | None) -> World:
     return world
 
 
-def positive(name: str, value: float) -> float:
-    """Refuse what is no positive finite number."""
-    if not 0 < value < float("inf"):
-        raise typer.BadParameter(f"{value}: expected more than 0", param_hint=f"--{name}")
-    return value
-
-
-@app.command("list")
+@command("list", "bioscope list")
 def list_() -> None:
-    """List the ready-made worlds and models, each with a line.
-
-    Example: bioscope list
-    """
+    """List the ready-made worlds and models, each with a line."""
     from bioscope.populations.plants import models
 
     for name, summary in worlds.names().items():
@@ -106,128 +121,108 @@ def list_() -> None:
         print(f"{name:16} Plant model, {path}")
 
 
-@app.command()
+@command("run", "bioscope run reef --seconds 60 --seed 7 --events reef.jsonl --hash")
+@world_name
+@seconds_option(10.0)
+@seed_option
+@path_option("--events", metavar="FILE", help="Events to a .jsonl or .parquet file.")
+@path_option("--save", metavar="FILE", help="Save the world at the end.")
+@click.option("--hash", "show_hash", is_flag=True, help="Print the state hash as the last line.")
 def run(
-    world: WorldName,
-    seconds: Seconds = 10.0,
-    seed: Seed = None,
-    events: Annotated[
-        Path | None, typer.Option(metavar="FILE", help="Events to a .jsonl or .parquet file.")
-    ] = None,
-    save: Annotated[
-        Path | None, typer.Option(metavar="FILE", help="Save the world at the end.")
-    ] = None,
-    show_hash: Annotated[
-        bool, typer.Option("--hash", help="Print the state hash as the last line.")
-    ] = False,
+    world: str,
+    seconds: float,
+    seed: int | None,
+    events: Path | None,
+    save: Path | None,
+    show_hash: bool,
 ) -> None:
-    """Run a world without watching it.
-
-    Example: bioscope run reef --seconds 60 --seed 7 --events reef.jsonl --hash
-    """
+    """Run a world without watching it."""
     from bioscope.run import run_world
 
     made = opened(world, seed)
-    run_world(made, positive("seconds", seconds), events, save, say)
+    run_world(made, seconds, events, save, say)
     if show_hash:
         print(made.state_hash())
 
 
-@app.command()
+@command("live", "bioscope live reef --seed 7")
+@world_name
+@click.option(
+    "--port", type=click.IntRange(1, 65535), default=8765, help="Port; the next free one."
+)
+@click.option("--host", default="127.0.0.1", help="Address; others than loopback need a token.")
+@click.option("--token", help="Word that a page must know.")
+@seed_option
+@click.option("--no-open", is_flag=True, help="Do not open a browser.")
 def live(
-    world: WorldName,
-    port: Annotated[int, typer.Option(min=1, max=65535, help="Port; the next free one.")] = 8765,
-    host: Annotated[str, typer.Option(help="Address; others than loopback need a token.")] = (
-        "127.0.0.1"
-    ),
-    token: Annotated[str | None, typer.Option(help="Word that a page must know.")] = None,
-    seed: Seed = None,
-    no_open: Annotated[bool, typer.Option("--no-open", help="Do not open a browser.")] = False,
+    world: str, port: int, host: str, token: str | None, seed: int | None, no_open: bool
 ) -> None:
-    """Watch a world live in the browser.
-
-    Example: bioscope live reef --seed 7
-    """
+    """Watch a world live in the browser."""
     from bioscope.live import serve
 
     seed = secrets.randbits(32) if seed is None else seed
     serve(world, seed=seed, host=host, port=port, token=token, open_browser=not no_open, say=say)
 
 
-@app.command()
+@command("film", "bioscope film reef -o reef.mp4 --seconds 10 --seed 7")
+@world_name
+@path_option("-o", "--output", metavar="FILE.mp4", help="What to write.")
+@seconds_option(10.0)
+@click.option("--size", metavar="WxH", default="1280x720", help="Pixels.")
+@click.option("--fps", type=float, callback=positive, default=30.0, help="Pictures per second.")
+@click.option("--renderer", default="preview", help="preview or path.")
+@click.option("--camera", metavar="NAME", help="A camera of the world.")
+@path_option("--frames", metavar="DIR", help="Pictures as PNG files in a folder.")
+@click.option("--samples", type=click.IntRange(1), default=64, help="Samples per pixel (path).")
+@seed_option
 def film(
-    world: WorldName,
-    output: Annotated[Path | None, typer.Option("-o", "--output", metavar="FILE.mp4")] = None,
-    seconds: Seconds = 10.0,
-    size: Annotated[str, typer.Option(metavar="WxH", help="Pixels.")] = "1280x720",
-    fps: Annotated[float, typer.Option(help="Pictures per second.")] = 30.0,
-    renderer: Annotated[str, typer.Option(help="preview or path.")] = "preview",
-    camera: Annotated[str | None, typer.Option(help="A camera of the world.")] = None,
-    frames: Annotated[
-        Path | None, typer.Option(metavar="DIR", help="Pictures as PNG files in a folder.")
-    ] = None,
-    samples: Annotated[int, typer.Option(min=1, help="Samples per pixel (path).")] = 64,
-    seed: Seed = None,
+    world: str,
+    output: Path | None,
+    frames: Path | None,
+    seed: int | None,
+    **options: Any,
 ) -> None:
-    """Film a world, with sound. An interrupted film goes on where it stopped.
-
-    Example: bioscope film reef -o reef.mp4 --seconds 10 --seed 7
-    """
+    """Film a world, with sound. An interrupted film goes on where it stopped."""
     from bioscope.film import FilmOptions, film_world, parse_size
     from bioscope.film.film import seed_of_partial
 
     if output is None and frames is None:
-        raise typer.BadParameter("expected a file to write", param_hint="--output")
-    options = FilmOptions(
-        seconds=positive("seconds", seconds),
-        size=parse_size(size),
-        frames_per_second=positive("fps", fps),
-        renderer=renderer,
-        camera=camera,
-        samples=samples,
+        raise click.BadParameter("expected a file to write", param_hint="--output")
+    made = FilmOptions(
+        seconds=options["seconds"],
+        size=parse_size(options["size"]),
+        frames_per_second=options["fps"],
+        renderer=options["renderer"],
+        camera=options["camera"],
+        samples=options["samples"],
     )
-    seed = seed_of_partial(output, frames, options) if seed is None else seed
-    film_world(opened(world, seed), output, options, frames=frames, say=say)
+    seed = seed_of_partial(output, frames, made) if seed is None else seed
+    film_world(opened(world, seed), output, made, frames=frames, say=say)
 
 
-@app.command()
-def export(
-    world: WorldName,
-    output: Annotated[Path, typer.Option("-o", "--output", metavar="FILE.usdc|.usda|.glb")],
-    seconds: Seconds = 2.0,
-    fps: Annotated[float, typer.Option(help="Samples per second.")] = 24.0,
-    seed: Seed = None,
-) -> None:
-    """Export a world's scene and motion to USD or glTF.
-
-    Example: bioscope export reef -o reef.usdc --seconds 4
-    """
+@command("export", "bioscope export reef -o reef.usdc --seconds 4")
+@world_name
+@path_option("-o", "--output", required=True, metavar="FILE.usdc|.usda|.glb", help="What to write.")
+@seconds_option(2.0)
+@click.option("--fps", type=float, callback=positive, default=24.0, help="Samples per second.")
+@seed_option
+def export(world: str, output: Path, seconds: float, fps: float, seed: int | None) -> None:
+    """Export a world's scene and motion to USD or glTF."""
     from bioscope.export import export_world
 
-    positive("seconds", seconds)
-    export_world(opened(world, seed), output, seconds, positive("fps", fps), say=say)
+    export_world(opened(world, seed), output, seconds, fps, say=say)
 
 
-@app.command()
-def derive(
-    file: Annotated[Path, typer.Argument(metavar="FILE.l", help="A model.")],
-    steps: Annotated[
-        int | None, typer.Option(min=0, help="As the file says, if not given.")
-    ] = None,
-    seed: Annotated[int, typer.Option(min=0, max=2**64 - 1)] = 1,
-    homomorphism: Annotated[
-        bool, typer.Option("--homomorphism", help="The string as the turtle reads it.")
-    ] = False,
-    form: Annotated[str, typer.Option("--format", help="string or json.")] = "string",
-) -> None:
-    """Print the string that an L-system derives.
-
-    Example: bioscope derive kelp.l --steps 8
-    """
+@command("derive", "bioscope derive kelp.l --steps 8")
+@model_file
+@steps_option
+@click.option("--seed", type=click.IntRange(0, 2**64 - 1), default=1, help="Seed.")
+@click.option("--homomorphism", is_flag=True, help="The string as the turtle reads it.")
+@click.option("--format", "form", type=click.Choice(["string", "json"]), default="string")
+def derive(file: Path, steps: int | None, seed: int, homomorphism: bool, form: str) -> None:
+    """Print the string that an L-system derives."""
     from bioscope.lsystem import LSystem
 
-    if form not in ("string", "json"):
-        raise typer.BadParameter(f"{form}: expected string or json", param_hint="--format")
     system = LSystem.read(file)
     for warning in system.warnings:
         say(warning)
@@ -246,45 +241,32 @@ def derive(
     print(msgspec.json.encode(parts).decode())
 
 
-@app.command()
-def grow(
-    file: Annotated[Path, typer.Argument(metavar="FILE.l", help="A model.")],
-    output: Annotated[
-        Path,
-        typer.Option("-o", "--output", metavar="FILE.glb|.obj|.usdc|.png", help="What to write."),
-    ],
-    steps: Annotated[
-        int | None, typer.Option(min=0, help="As the file says, if not given.")
-    ] = None,
-    seed: Annotated[int, typer.Option(min=0, max=2**64 - 1)] = 1,
-) -> None:
-    """Grow a plant and write its shape.
-
-    Example: bioscope grow kelp.l -o kelp.glb --seed 3
-    """
+@command("grow", "bioscope grow kelp.l -o kelp.glb --seed 3")
+@model_file
+@path_option(
+    "-o", "--output", required=True, metavar="FILE.glb|.obj|.usdc|.png", help="What to write."
+)
+@steps_option
+@click.option("--seed", type=click.IntRange(0, 2**64 - 1), default=1, help="Seed.")
+def grow(file: Path, output: Path, steps: int | None, seed: int) -> None:
+    """Grow a plant and write its shape."""
     from bioscope.lsystem.specimen import grow as grow_plant
 
     mesh = grow_plant(file, output, steps, seed)
     say(f"{output}: {len(mesh.triangles)} triangles")
 
 
-@app.command()
-def bench(
-    names: Annotated[
-        list[str] | None,
-        typer.Argument(metavar="[NAME…]", help="Beginnings of names; all if none."),
-    ] = None,
-    json: Annotated[
-        Path | None, typer.Option("--json", metavar="FILE", help="Store the lines here too.")
-    ] = None,
-) -> None:
+@command("bench", "bioscope bench reef.tick flock")
+@click.argument("names", nargs=-1)
+@path_option("--json", metavar="FILE", help="Store the lines here too.")
+def bench(names: tuple[str, ...], json: Path | None) -> None:
     """Measure: one JSON line per figure. Needs the source checkout.
 
-    Example: bioscope bench reef.tick flock
+    NAMES are the beginnings of figures' names; all if none.
     """
     from bioscope.bench import run as run_benchmarks
 
-    run_benchmarks(names or [], json, say)
+    run_benchmarks(list(names), json, say)
 
 
 def main() -> None:
@@ -297,9 +279,7 @@ def _told(error: BaseException) -> str:
     """Return the message of an error with the file it is about."""
     if isinstance(error, OSError) and error.filename and error.strerror:
         return f"{error.filename}: {error.strerror}"
-    if isinstance(error, InvalidValueError) or str(error):
-        return str(error)
-    return type(error).__name__
+    return str(error) or type(error).__name__
 
 
 def _terminated(_signal: int, _frame: object) -> None:
