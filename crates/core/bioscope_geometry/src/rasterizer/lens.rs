@@ -67,6 +67,7 @@ pub(crate) struct Lens {
     pub far: f32,
     /// Pixels per unit of tangent, or per radian.
     pub scale: f32,
+    pitch: f32,
     /// Middle of the picture.
     middle: [f32; 2],
     /// The rays of a fish-eye; none for a perspective.
@@ -91,6 +92,7 @@ impl Lens {
             near,
             far,
             scale: 1.0,
+            pitch: 1.0,
             middle,
             round: None,
             reach: 0.0,
@@ -110,6 +112,7 @@ impl Lens {
                 lens.round = Some(lens.all_rays());
             }
         }
+        lens.pitch = 1.0 / lens.scale;
         lens
     }
 
@@ -180,8 +183,8 @@ impl Lens {
         if self.round.is_some() {
             return test;
         }
-        let column = test.x / self.scale;
-        let row = -test.y / self.scale;
+        let column = test.x * self.pitch();
+        let row = -test.y * self.pitch();
         let start = column * (0.5 - self.middle[0]) + row * (0.5 - self.middle[1]);
         Vec3::new(column, row, start - test.z)
     }
@@ -202,6 +205,15 @@ impl Lens {
         let size = self.scale * away / aside;
         let (x, y) = (self.middle[0] + point.x * size, self.middle[1] - point.y * size);
         Seen { point, x, y, away, inverse }
+    }
+
+    /// Whether a triangle clearly shows its back; what is near the eye or nearly edge on is left to the exact
+    /// test.
+    #[inline(always)]
+    pub fn turned_away(&self, [a, b, c]: [&Seen; 3]) -> bool {
+        let before = a.away.min(b.away).min(c.away) >= self.near;
+        let area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+        before && self.round.is_none() && area > 1e-3
     }
 
     /// The samples among `rows` that a triangle may cover.
@@ -333,8 +345,9 @@ impl Lens {
     }
 
     /// Angle between neighboring samples near the axis, radians.
+    #[inline(always)]
     pub fn pitch(&self) -> f32 {
-        1.0 / self.scale
+        self.pitch
     }
 
     /// Whether two cameras have the same lens.

@@ -223,6 +223,9 @@ impl Look<'_> {
         let (both, holes) = (material.two_sided, material.cutout && material.texture.is_some());
         for (number, triangle) in mesh.triangles.iter().enumerate() {
             let corners = triangle.map(|corner| &seen[corner as usize]);
+            if !both && self.lens.turned_away(corners) {
+                continue;
+            }
             let Some(window) = self.lens.window(corners, rows) else { continue };
             let Some(tests) = self.tests(corners.map(|corner| corner.point), both) else {
                 continue;
