@@ -3,6 +3,7 @@
 //! of the house (events, sounds, percepts, intentions, annotations).
 
 mod annotation;
+mod display;
 mod error;
 mod event;
 mod intention;
@@ -15,11 +16,12 @@ mod sound;
 pub mod state;
 
 pub use annotation::{Annotation, Mark};
+pub use display::{Act, Display, Sex};
 pub use error::{Error, Result};
 pub use event::{Event, Value};
 pub use intention::Intention;
 pub use parameter::{Parameter, Parameters};
-pub use percept::{Hearing, Impact, Percepts, Sighting};
+pub use percept::{Hearing, Impact, Percepts, Retina, Sighting};
 pub use random::{Purpose, Random};
 pub use sound::SoundEvent;
 

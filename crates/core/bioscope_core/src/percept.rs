@@ -4,7 +4,7 @@ use std::sync::Arc;
 use glam::{Quat, Vec3};
 use serde::{Deserialize, Serialize};
 
-use crate::{Id, Value};
+use crate::{Display, Id, Value};
 
 /// Everything one animal notices in one tick: all that its mind may know.
 ///
@@ -12,6 +12,8 @@ use crate::{Id, Value};
 /// its centre as the origin; velocities are relative to the ground in the same frame.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Percepts {
+    /// Who notices: the name by which others know it.
+    pub id: Id,
     /// World time in seconds.
     pub time: f64,
     /// Seconds since the last decision.
@@ -28,8 +30,14 @@ pub struct Percepts {
     pub home: Vec3,
     /// What is seen, nearest first.
     pub seen: Vec<Sighting>,
+    /// Food that is smelled, seen or not, nearest first.
+    pub smelled: Vec<Sighting>,
+    /// Things swallowed since the last decision.
+    pub fed: u32,
     /// What lies ahead within reach, if anything.
     pub ahead: Option<Impact>,
+    /// Points of the solids around that are nearest to the eye, own frame, metres, nearest first.
+    pub solids: Vec<Vec3>,
     /// What is heard.
     pub heard: Vec<Hearing>,
     /// Flow of the medium relative to the body, metres per second.
@@ -38,12 +46,16 @@ pub struct Percepts {
     pub light: f32,
     /// Temperature in degrees Celsius.
     pub temperature: f32,
+    /// The picture on the retina, for those who look. Not part of saved states: the next look makes it
+    /// anew.
+    #[serde(skip)]
+    pub retina: Option<Arc<Retina>>,
     /// Whatever further senses add, by name.
     pub other: BTreeMap<String, Value>,
 }
 
 /// One thing seen.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Sighting {
     /// Its identity.
     pub id: Id,
@@ -53,8 +65,29 @@ pub struct Sighting {
     pub position: Vec3,
     /// How it moves, own frame, metres per second.
     pub velocity: Vec3,
+    /// Where it looks: a unit vector in the own frame; zero for things without front and back.
+    pub heading: Vec3,
     /// Its size in metres.
     pub size: f32,
+    /// Its linear color, without the water's.
+    pub color: [f32; 3],
+    /// What it shows of its state.
+    pub display: Display,
+}
+
+/// A picture on a retina, rows from the top: what the eye sees, how far and whom.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Retina {
+    /// Pixels per row.
+    pub width: usize,
+    /// Rows.
+    pub height: usize,
+    /// Linear radiance, RGB; black outside the field of view.
+    pub color: Vec<[f32; 3]>,
+    /// Range along each pixel's ray in metres, infinite where there is nothing.
+    pub range: Vec<f32>,
+    /// Identity of what is seen, 0 where there is nothing.
+    pub identity: Vec<Id>,
 }
 
 /// An obstacle straight ahead.

@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use bioscope_core::{Annotation, Id, Vec3};
+use bioscope_core::{Annotation, Display, Id, Vec3};
 use serde::{Deserialize, Serialize};
 
 use crate::{Key, Mesh, Rig, Transform};
@@ -53,6 +53,8 @@ pub struct Batch {
     /// Poses of the mesh's joints in mesh space: joint count × instances, instance by instance;
     /// empty for a rigid mesh (or all at rest). Scales in it are 1.
     pub poses: Vec<Transform>,
+    /// What each instance shows of its state; empty where none shows anything.
+    pub displays: Vec<Display>,
     /// Whether an animal's eye may pick it as an individual (animals and plants; not sand and rock).
     pub alive: bool,
 }
@@ -75,6 +77,7 @@ impl Batch {
             velocities: Vec::new(),
             tints: Vec::new(),
             poses: Vec::new(),
+            displays: Vec::new(),
             alive: false,
         }
     }

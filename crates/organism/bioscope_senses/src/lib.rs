@@ -8,19 +8,23 @@ mod eye;
 mod hearing;
 mod lateral_line;
 mod light;
+mod outlook;
 mod sense;
 mod sight;
+mod smell;
 mod surroundings;
 #[cfg(test)]
 mod tests;
 mod touch;
 
-pub use eye::eye_camera;
+pub use eye::{Eye, EyeParameters, Side, eye_camera, paired_eye};
 pub use hearing::{Hearing, HearingParameters};
 pub use lateral_line::LateralLine;
 pub use light::Light;
+pub use outlook::{Kind, Memory, Outlook, Thing};
 pub use sense::{Sense, restore};
 pub use sight::{Sight, SightParameters};
+pub use smell::{Smell, SmellParameters};
 pub use surroundings::Surroundings;
 pub use touch::{Touch, TouchParameters, impact_ahead};
 

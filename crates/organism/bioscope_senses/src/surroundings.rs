@@ -2,6 +2,8 @@ use bioscope_core::{Id, Percepts, Quat, SoundEvent, Vec3};
 use bioscope_dynamics::Influence;
 use bioscope_geometry::{Medium, Obstacle, Scene, Sun, Terrain};
 
+use crate::Outlook;
+
 /// The world round one animal as the last tick left it: all that its senses may read.
 ///
 /// Places and velocities are in the world, in metres and seconds; the methods carry them into the
@@ -21,7 +23,7 @@ pub struct Surroundings<'a> {
     /// The place it calls home.
     pub home: Vec3,
     /// What can be seen.
-    pub scene: &'a Scene,
+    pub outlook: &'a Outlook<'a>,
     /// What began to sound in the last tick.
     pub sounds: &'a [SoundEvent],
     /// What acts at the animal's place.
@@ -42,7 +44,12 @@ pub struct Surroundings<'a> {
     pub dt: f32,
 }
 
-impl Surroundings<'_> {
+impl<'a> Surroundings<'a> {
+    /// What can be seen.
+    pub fn scene(&self) -> &'a Scene {
+        self.outlook.scene()
+    }
+
     /// A place in the world as seen from the animal's centre.
     pub fn own_point(&self, point: Vec3) -> Vec3 {
         self.own_vector(point - self.position)
@@ -63,10 +70,11 @@ impl Surroundings<'_> {
         self.medium.surface.map_or(0.0, |surface| surface - self.position.y)
     }
 
-    /// What every animal knows of itself without a sense of its own: time, motion, balance, size,
+    /// What every animal knows of itself without a sense of its own: name, time, motion, balance, size,
     /// depth and the way home.
     pub fn own_state(&self) -> Percepts {
         Percepts {
+            id: self.id,
             time: self.time,
             dt: self.dt,
             velocity: self.own_vector(self.velocity),

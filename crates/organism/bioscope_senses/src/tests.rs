@@ -4,12 +4,14 @@ use bioscope_core::{Percepts, Quat, SoundEvent, Vec3};
 use bioscope_dynamics::Influence;
 use bioscope_geometry::{Medium, Scene, Sun};
 
-use crate::{Hearing, HearingParameters, LateralLine, Light, Sense, Surroundings, restore};
+use crate::{
+    Hearing, HearingParameters, LateralLine, Light, Memory, Outlook, Sense, Surroundings, restore,
+};
 
 const DT: f32 = 1.0 / 60.0;
 
 /// Two metres under the surface, turned to +X.
-fn surroundings<'a>(scene: &'a Scene, medium: &'a Medium) -> Surroundings<'a> {
+fn surroundings<'a>(outlook: &'a Outlook<'a>, medium: &'a Medium) -> Surroundings<'a> {
     Surroundings {
         id: 1,
         position: Vec3::Y * -2.0,
@@ -17,7 +19,7 @@ fn surroundings<'a>(scene: &'a Scene, medium: &'a Medium) -> Surroundings<'a> {
         velocity: Vec3::X,
         body_length: 0.3,
         home: Vec3::ZERO,
-        scene,
+        outlook,
         sounds: &[],
         influence: Influence::default(),
         obstacles: &[],
@@ -49,7 +51,8 @@ fn bite(source: u32, position: Vec3) -> SoundEvent {
 
 #[test]
 fn sounds_arrive_late_from_far_once_and_never_from_oneself() {
-    let (scene, medium) = (Scene::default(), water());
+    let (scene, memory, medium) = (Scene::default(), Memory::default(), water());
+    let outlook = Outlook::new(&scene, &memory);
     // 45 m of water take 30 ms: not this tick of 17 ms but the next.
     let sounds = [
         bite(2, Vec3::new(2.0, -2.0, 0.0)),
@@ -61,7 +64,7 @@ fn sounds_arrive_late_from_far_once_and_never_from_oneself() {
     let mut heard = Vec::new();
     for tick in 0..4 {
         let mut percepts = Percepts::default();
-        let mut now = surroundings(&scene, &medium);
+        let mut now = surroundings(&outlook, &medium);
         now.time += f64::from(tick) * f64::from(DT);
         now.sounds = if tick == 0 { &sounds } else { &[] };
         hearing = restore("hearing", &hearing.save().unwrap()).unwrap();
@@ -77,9 +80,10 @@ fn sounds_arrive_late_from_far_once_and_never_from_oneself() {
 
 #[test]
 fn the_lateral_line_feels_the_flow_past_the_body() {
-    let (scene, medium) = (Scene::default(), water());
+    let (scene, memory, medium) = (Scene::default(), Memory::default(), water());
+    let outlook = Outlook::new(&scene, &memory);
     let mut percepts = Percepts::default();
-    let mut now = surroundings(&scene, &medium);
+    let mut now = surroundings(&outlook, &medium);
     now.influence.flow = Vec3::new(0.0, 0.0, 0.5);
     LateralLine.sense(&now, &mut percepts).unwrap();
     // It swims at 1 m/s along +X, so the water comes from ahead; +Z of the world is its right.
@@ -88,10 +92,11 @@ fn the_lateral_line_feels_the_flow_past_the_body() {
 
 #[test]
 fn it_darkens_with_depth_and_lamps_and_springs_add_to_light_and_warmth() {
-    let (scene, medium) = (Scene::default(), water());
+    let (scene, memory, medium) = (Scene::default(), Memory::default(), water());
+    let outlook = Outlook::new(&scene, &memory);
     let bright = |depth: f32, lamp: f32| {
         let mut percepts = Percepts::default();
-        let mut now = surroundings(&scene, &medium);
+        let mut now = surroundings(&outlook, &medium);
         now.position.y = -depth;
         now.influence = Influence { light: lamp, temperature: 1.5, ..Influence::default() };
         Light.sense(&now, &mut percepts).unwrap();

@@ -42,6 +42,7 @@ impl Fish {
             position: inward * (SCHOOL + Vec3::X * index as f32 * 0.1 - self.position),
             velocity: Vec3::ZERO,
             size: 0.1,
+            ..Sighting::default()
         };
         let seen: Vec<Sighting> = (0..5).map(member).filter(|one| one.position.z > 0.0).collect();
         let altitude = Value::from(self.position.y - FLOOR);

@@ -1,8 +1,12 @@
-use bioscope_core::{Quat, Vec3};
-use bioscope_geometry::{Projection, Transform};
+use std::sync::Arc;
+
+use bioscope_core::{Percepts, Quat, Vec3};
+use bioscope_dynamics::Influence;
+use bioscope_geometry::{Batch, Material, Medium, Mesh, Projection, Scene, Sky, Sun, Transform};
 use proptest::prelude::*;
 
-use super::eye_camera;
+use super::{Eye, EyeParameters, Side, eye_camera, paired_eye};
+use crate::{Memory, Outlook, Sense, Surroundings};
 
 proptest! {
     #[test]
@@ -19,4 +23,80 @@ proptest! {
         let Projection::Fisheye { field_of_view } = camera.projection else { panic!("a fish-eye") };
         prop_assert!(field_of_view <= 300f32.to_radians());
     }
+}
+
+/// A wall of two triangles ahead, in the light of a sky `light` times as bright.
+fn wall(light: f32) -> Scene {
+    let corner = |x: f32, y: f32| Vec3::new(x, y, 4.0);
+    let mesh = Mesh {
+        positions: vec![corner(-9.0, -9.0), corner(9.0, -9.0), corner(0.0, 9.0)],
+        normals: vec![Vec3::NEG_Z; 3],
+        triangles: vec![[0, 2, 1]],
+        ..Mesh::default()
+    };
+    let material = Material { two_sided: true, ..Material::default() };
+    let mut batch = Batch::new("wall", "wall", Arc::new(mesh), Arc::new(material));
+    batch.ids = vec![5];
+    batch.transforms = vec![Transform::IDENTITY];
+    let mut scene = Scene { batches: vec![batch], ..Scene::default() };
+    scene.sun.color = scene.sun.color.map(|one| one * light);
+    let brighter = |color: [f32; 3]| color.map(|one| one * light);
+    let Sky { zenith, horizon, nadir } = Sky::default();
+    scene.sky =
+        Sky { zenith: brighter(zenith), horizon: brighter(horizon), nadir: brighter(nadir) };
+    scene
+}
+
+fn noticed(scene: &Scene) -> Percepts {
+    let (memory, medium) = (Memory::default(), Medium::default());
+    let outlook = Outlook::new(scene, &memory);
+    let surroundings = Surroundings {
+        id: 1,
+        position: Vec3::ZERO,
+        attitude: Quat::IDENTITY,
+        velocity: Vec3::ZERO,
+        body_length: 0.5,
+        home: Vec3::ZERO,
+        outlook: &outlook,
+        sounds: &[],
+        influence: Influence::default(),
+        obstacles: &[],
+        terrain: None,
+        medium: &medium,
+        sun: Sun::default(),
+        temperature: 20.0,
+        time: 0.0,
+        dt: 1.0 / 60.0,
+    };
+    let mut percepts = Percepts::default();
+    Eye::new(EyeParameters { width: 33.0, height: 17.0, ..EyeParameters::default() })
+        .sense(&surroundings, &mut percepts)
+        .unwrap();
+    percepts
+}
+
+#[test]
+fn the_retina_shows_whom_how_far_and_how_bright() {
+    let percepts = noticed(&wall(1.0));
+    let retina = percepts.retina.unwrap();
+    assert_eq!((retina.width, retina.height, retina.color.len()), (33, 17, 33 * 17));
+    let middle = 8 * 33 + 16;
+    assert_eq!(retina.identity[middle], 5);
+    assert!((retina.range[middle] - (4.0 - 0.22)).abs() < 0.05, "{}", retina.range[middle]);
+    assert!(retina.range[0].is_infinite() && retina.identity[0] == 0, "outside the round view");
+    let twice = noticed(&wall(2.0)).light;
+    assert!((twice / percepts.light - 2.0).abs() < 0.01, "{twice} {}", percepts.light);
+}
+
+#[test]
+fn two_eyes_stand_apart_and_pan_and_tilt() {
+    let attitude = Quat::from_rotation_y(0.7);
+    let placement = Transform::new(Vec3::Y, attitude, 1.0);
+    let eye = |side: Side, turn: (f32, f32)| paired_eye(&placement, 0.5, 2.0, (side, 0.2), turn);
+    let (left, right) = (eye(Side::Left, (0.0, 0.0)), eye(Side::Right, (0.0, 0.0)));
+    assert!((left.position - right.position - attitude * Vec3::X * 0.1).length() < 1e-5);
+    assert!((left.forward() - attitude * Vec3::Z).length() < 1e-5);
+    let panned = attitude.inverse() * eye(Side::Left, (0.5, 0.0)).forward();
+    assert!((panned - Vec3::new(0.5f32.sin(), 0.0, 0.5f32.cos())).length() < 1e-5, "{panned}");
+    assert!((attitude.inverse() * eye(Side::Left, (0.0, 0.4)).forward()).y > 0.3);
 }

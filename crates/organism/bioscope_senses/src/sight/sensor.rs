@@ -1,16 +1,16 @@
-use std::collections::BTreeMap;
-
 use bioscope_core::{Parameters, Percepts, Result, Sighting, Vec3, math, parameters, state};
-use bioscope_geometry::{Batch, Camera, Medium, Transform};
+use bioscope_geometry::{Camera, Medium, Transform};
 use serde::{Deserialize, Serialize};
 
+use super::cover::Cover;
 use crate::eye::{eye_camera, eye_position};
+use crate::outlook::{Kind, Thing};
 use crate::{Sense, Surroundings};
 
 /// −ln of the least contrast that is seen, 2 percent (Koschmieder 1924).
 const HAZE: f32 = 3.912;
-/// Mesh sizes kept before the cache is emptied.
-const KNOWN_MESHES: usize = 4096;
+/// Distance in body lengths from which solids are noticed on all sides.
+const NEAR_SOLIDS: f32 = 5.0;
 
 parameters! {
     /// How well an animal sees.
@@ -26,71 +26,124 @@ parameters! {
     }
 }
 
+impl SightParameters {
+    /// The sight of an artificial fish: everything within 15 times its own size, after Tu 1996, 5.2.
+    pub fn fish() -> Self {
+        Self { range: 1000.0, acuity: 3.8183, ..Self::default() }
+    }
+}
+
 /// Sight of living things; see the [module](self) for what is seen.
-#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Sight {
     parameters: SightParameters,
-    /// Size of each mesh by its key: no state, only what need not be computed twice.
-    #[serde(skip)]
-    sizes: BTreeMap<u64, f32>,
 }
 
 /// Something within range and field of view.
+#[derive(Clone, Copy)]
 struct Candidate {
+    /// Whether it stays where it is: of less interest.
+    stays: bool,
     distance: f32,
-    batch: usize,
-    instance: usize,
-    size: f32,
+    thing: Thing,
 }
 
 impl Sight {
     /// Sight this good.
     pub fn new(parameters: SightParameters) -> Self {
-        Self { parameters, sizes: BTreeMap::new() }
+        Self { parameters }
     }
 
-    /// Greatest extent of a batch's mesh at scale 1, metres.
-    fn size(&mut self, batch: &Batch) -> f32 {
-        if self.sizes.len() > KNOWN_MESHES {
-            self.sizes.clear();
-        }
-        *self.sizes.entry(batch.mesh.key.number()).or_insert_with(|| {
-            let (low, high) = batch.mesh.bounds();
-            (high - low).max_element().max(0.0)
-        })
-    }
-
-    /// Everything within range and field of view, nearest first.
-    fn candidates(&mut self, surroundings: &Surroundings, eye: Vec3) -> Vec<Candidate> {
+    /// Everything within range and field of view.
+    fn candidates(&self, surroundings: &Surroundings, eye: Vec3) -> Vec<Candidate> {
         let range = self.parameters.range.min(visibility(surroundings.medium));
         let half_angle = (0.5 * self.parameters.field_of_view).min(180.0).to_radians();
         let least_cosine = math::cos(half_angle);
         let least_size = 2.0 * math::tan(0.5 * self.parameters.acuity.to_radians());
         let heading = surroundings.heading();
+        let batches = &surroundings.scene().batches;
+        let reach = |size: f32| range.min(size / least_size.max(1e-9));
         let mut candidates = Vec::new();
-        for (index, batch) in surroundings.scene.batches.iter().enumerate() {
-            if !batch.alive {
-                continue;
+        surroundings.outlook.near(eye, reach, |thing| {
+            let offset = thing.position - eye;
+            let distance = offset.length();
+            let seen = distance <= reach(thing.size)
+                && offset.dot(heading) >= least_cosine * distance
+                && thing.kind == Kind::Instance
+                && thing.id != surroundings.id;
+            if seen {
+                let stays = batches[thing.group as usize].velocities.is_empty();
+                candidates.push(Candidate { stays, distance, thing: *thing });
             }
-            let mesh_size = self.size(batch);
-            for (instance, transform) in batch.transforms.iter().enumerate() {
-                let offset = transform.position - eye;
-                let distance = offset.length();
-                let size = mesh_size * transform.scale;
-                let seen = distance <= range
-                    && size >= least_size * distance
-                    && offset.dot(heading) >= least_cosine * distance
-                    && batch.ids[instance] != surroundings.id;
-                if seen {
-                    candidates.push(Candidate { distance, batch: index, instance, size });
-                }
-            }
-        }
-        candidates.sort_by(|a, b| {
-            let order = a.distance.total_cmp(&b.distance);
-            order.then(a.batch.cmp(&b.batch)).then(a.instance.cmp(&b.instance))
         });
         candidates
+    }
+
+    /// Those that are attended to: the nearest that are not hidden.
+    fn attended(&self, surroundings: &Surroundings, eye: Vec3) -> (Vec<Candidate>, Vec<Vec3>) {
+        let attention = self.parameters.attention as usize;
+        let mut candidates = self.candidates(surroundings, eye);
+        // Some more than are attended to, for those that turn out to be hidden.
+        let enough = attention + attention / 2 + 8;
+        if candidates.len() > enough {
+            candidates.select_nth_unstable_by(enough - 1, order);
+        }
+        let first = enough.min(candidates.len());
+        candidates[..first].sort_unstable_by(order);
+        let near = NEAR_SOLIDS * surroundings.body_length;
+        let farthest =
+            |some: &[Candidate]| some.iter().map(|one| one.distance).fold(near, f32::max);
+        let mut cover = Cover::new(surroundings, eye, farthest(&candidates[..first]));
+        let solids = cover.nearest_points(near);
+        let mut visible = Vec::with_capacity(attention.min(first));
+        for index in 0..candidates.len() {
+            if visible.len() == attention {
+                break;
+            }
+            if index == first {
+                candidates[first..].sort_unstable_by(order);
+                cover = Cover::new(surroundings, eye, farthest(&candidates[first..]));
+            }
+            let one = candidates[index];
+            if !cover.hides(one.thing.position, axis(surroundings, &one.thing), one.thing.size) {
+                visible.push(one);
+            }
+        }
+        visible.sort_unstable_by(|a, b| order(&Candidate { stays: b.stays, ..*a }, b));
+        (visible, solids)
+    }
+}
+
+/// What moves first, then the nearest.
+fn order(a: &Candidate, b: &Candidate) -> std::cmp::Ordering {
+    let order = a.stays.cmp(&b.stays).then(a.distance.total_cmp(&b.distance));
+    order.then(a.thing.id.cmp(&b.thing.id))
+}
+
+/// Where a thing looks: a unit vector in the world; zero for what stays and has no front.
+fn axis(surroundings: &Surroundings, thing: &Thing) -> Vec3 {
+    let batch = &surroundings.scene().batches[thing.group as usize];
+    if batch.velocities.is_empty() {
+        return Vec3::ZERO;
+    }
+    batch.transforms[thing.member as usize].rotation() * Vec3::Z
+}
+
+/// What is seen of a thing.
+fn sighting(surroundings: &Surroundings, thing: &Thing) -> Sighting {
+    let batch = &surroundings.scene().batches[thing.group as usize];
+    let member = thing.member as usize;
+    let velocity = batch.velocities.get(member).copied().unwrap_or_default();
+    let tint = Vec3::from(batch.tints.get(member).copied().unwrap_or([1.0; 3]));
+    Sighting {
+        id: thing.id,
+        species: batch.species.clone(),
+        position: surroundings.own_point(thing.position),
+        velocity: surroundings.own_vector(velocity),
+        heading: surroundings.own_vector(axis(surroundings, thing)),
+        size: thing.size,
+        color: (Vec3::from(batch.material.color) * tint).to_array(),
+        display: batch.displays.get(member).copied().unwrap_or_default(),
     }
 }
 
@@ -101,26 +154,6 @@ fn visibility(medium: &Medium) -> f32 {
     HAZE / least.fold(f32::INFINITY, f32::min).max(1e-6)
 }
 
-/// Whether obstacles or ground lie between the eye and a thing of this size (metres).
-fn hidden(surroundings: &Surroundings, eye: Vec3, target: Vec3, size: f32) -> bool {
-    // A thing that grows out of a rock is seen by the side that it turns to the eye, and an eye
-    // that has pressed itself into a rock's rough stand-in is not blind.
-    let way = target - eye;
-    let length = way.length();
-    let near = eye + way * (1.0 - (0.5 * size / length.max(1e-6)).min(1.0));
-    let solid = surroundings.obstacles.iter();
-    let behind_solid = solid.filter(|one| one.distance(eye) > 0.0).any(|one| one.hides(eye, near));
-    behind_solid
-        || surroundings.terrain.is_some_and(|terrain| {
-            const SAMPLES: u16 = 16;
-            let lift = 0.5 * size;
-            (1..SAMPLES).any(|step| {
-                let point = eye.lerp(near, f32::from(step) / f32::from(SAMPLES));
-                point.y + lift < terrain.height(point.x, point.z)
-            })
-        })
-}
-
 impl Sense for Sight {
     fn kind(&self) -> &str {
         "sight"
@@ -129,27 +162,11 @@ impl Sense for Sight {
     fn sense(&mut self, surroundings: &Surroundings, percepts: &mut Percepts) -> Result<()> {
         let placement = Transform::new(surroundings.position, surroundings.attitude, 1.0);
         let eye = eye_position(&placement, surroundings.body_length);
-        let attention = self.parameters.attention as usize;
-        let batches = &surroundings.scene.batches;
-        let candidates = self.candidates(surroundings, eye);
-        let visible = candidates.iter().filter(|one| {
-            let target = batches[one.batch].transforms[one.instance].position;
-            !hidden(surroundings, eye, target, one.size)
-        });
-        percepts.seen = visible
-            .take(attention)
-            .map(|one| {
-                let batch = &batches[one.batch];
-                let velocity = batch.velocities.get(one.instance).copied().unwrap_or_default();
-                Sighting {
-                    id: batch.ids[one.instance],
-                    species: batch.species.clone(),
-                    position: surroundings.own_point(batch.transforms[one.instance].position),
-                    velocity: surroundings.own_vector(velocity),
-                    size: one.size,
-                }
-            })
-            .collect();
+        let (visible, solids) = self.attended(surroundings, eye);
+        percepts.seen.clear();
+        percepts.seen.extend(visible.iter().map(|one| sighting(surroundings, &one.thing)));
+        percepts.solids.clear();
+        percepts.solids.extend(solids.iter().map(|&point| surroundings.own_point(point)));
         Ok(())
     }
 

@@ -6,7 +6,7 @@ use bioscope_geometry::{Batch, Material, Medium, Mesh, Obstacle, Scene, Sun, Ter
 use proptest::prelude::*;
 
 use super::*;
-use crate::{Sense, Surroundings, restore};
+use crate::{Memory, Outlook, Sense, Surroundings, restore};
 
 /// A scene with one living thing 0.2 m long at each place, identities from 10 on.
 fn scene(places: &[Vec3]) -> Scene {
@@ -20,7 +20,7 @@ fn scene(places: &[Vec3]) -> Scene {
     Scene { batches: vec![batch], ..Scene::default() }
 }
 
-fn surroundings<'a>(scene: &'a Scene, medium: &'a Medium) -> Surroundings<'a> {
+fn surroundings<'a>(outlook: &'a Outlook<'a>, medium: &'a Medium) -> Surroundings<'a> {
     Surroundings {
         id: 1,
         position: Vec3::ZERO,
@@ -28,7 +28,7 @@ fn surroundings<'a>(scene: &'a Scene, medium: &'a Medium) -> Surroundings<'a> {
         velocity: Vec3::ZERO,
         body_length: 0.0,
         home: Vec3::ZERO,
-        scene,
+        outlook,
         sounds: &[],
         influence: Influence::default(),
         obstacles: &[],
@@ -55,55 +55,66 @@ fn at_angle(degrees: f32, distance: f32) -> Vec3 {
 #[test]
 fn the_field_of_view_is_300_degrees() {
     let scene = scene(&[at_angle(149.0, 2.0), at_angle(151.0, 2.0), at_angle(-149.0, 3.0)]);
-    assert_eq!(seen(&surroundings(&scene, &Medium::default())), [10, 12]);
+    let memory = Memory::default();
+    let outlook = Outlook::new(&scene, &memory);
+    assert_eq!(seen(&surroundings(&outlook, &Medium::default())), [10, 12]);
 }
 
 #[test]
 fn the_nearest_are_seen_first_and_only_so_many() {
     let scene = scene(&[at_angle(0.0, 4.0), at_angle(90.0, 2.0), at_angle(20.0, 3.0)]);
+    let memory = Memory::default();
+    let outlook = Outlook::new(&scene, &memory);
     let (medium, mut percepts) = (Medium::default(), Percepts::default());
     let parameters = SightParameters { attention: 2.0, ..SightParameters::default() };
-    Sight::new(parameters).sense(&surroundings(&scene, &medium), &mut percepts).unwrap();
+    Sight::new(parameters).sense(&surroundings(&outlook, &medium), &mut percepts).unwrap();
     assert_eq!(percepts.seen.iter().map(|one| one.id).collect::<Vec<_>>(), [11, 12]);
 }
 
 #[test]
 fn what_is_far_small_or_lost_in_haze_is_not_seen() {
     let scene = scene(&[Vec3::Z * 29.0, Vec3::Z * 31.0]);
+    let memory = Memory::default();
+    let outlook = Outlook::new(&scene, &memory);
     let murky = Medium { absorption: [0.3; 3], scattering: [0.1; 3], ..Medium::default() };
-    assert_eq!(seen(&surroundings(&scene, &Medium::default())), [10]);
-    assert_eq!(seen(&surroundings(&scene, &murky)), [0u32; 0]);
+    assert_eq!(seen(&surroundings(&outlook, &Medium::default())), [10]);
+    assert_eq!(seen(&surroundings(&outlook, &murky)), [0u32; 0]);
     let sharp = SightParameters { acuity: 1.0, ..SightParameters::default() };
     let (medium, mut percepts) = (Medium::default(), Percepts::default());
-    Sight::new(sharp).sense(&surroundings(&scene, &medium), &mut percepts).unwrap();
+    Sight::new(sharp).sense(&surroundings(&outlook, &medium), &mut percepts).unwrap();
     assert!(percepts.seen.is_empty(), "0.2 m in 29 m is 0.4 degrees");
 }
 
 #[test]
 fn nobody_sees_itself_nor_what_does_not_live() {
     let mut scene = scene(&[Vec3::Z]);
+    let memory = Memory::default();
+    let outlook = Outlook::new(&scene, &memory);
     let medium = Medium::default();
-    let mut own = surroundings(&scene, &medium);
+    let mut own = surroundings(&outlook, &medium);
     own.id = 10;
     assert!(seen(&own).is_empty());
     scene.batches[0].alive = false;
-    assert!(seen(&surroundings(&scene, &medium)).is_empty());
+    let lifeless = Outlook::new(&scene, &memory);
+    assert!(seen(&surroundings(&lifeless, &medium)).is_empty());
 }
 
 #[test]
 fn rocks_and_ground_hide_what_is_behind_them() {
     let scene = scene(&[Vec3::Z * 10.0, Vec3::new(4.0, 0.0, 10.0)]);
+    let memory = Memory::default();
+    let outlook = Outlook::new(&scene, &memory);
     let (medium, rock) = (Medium::default(), Vec3::Z * 5.0);
     let rocks = [Obstacle::Sphere { center: rock, radius: 1.0 }];
-    let behind_rock = Surroundings { obstacles: &rocks, ..surroundings(&scene, &medium) };
+    let behind_rock = Surroundings { obstacles: &rocks, ..surroundings(&outlook, &medium) };
     assert_eq!(seen(&behind_rock), [11]);
     let on_top = [Obstacle::Sphere { center: Vec3::Z * 10.0, radius: 0.05 }];
-    let on_rock = Surroundings { obstacles: &on_top, ..surroundings(&scene, &medium) };
+    let on_rock = Surroundings { obstacles: &on_top, ..surroundings(&outlook, &medium) };
     assert_eq!(seen(&on_rock), [10, 11], "what sits on a small rock is seen");
     // A ridge along x at z = 4, two metres high.
     let heights = (0..16 * 16).map(|index| if index / 16 == 4 { 2.0 } else { -1.0 }).collect();
     let ridge = Terrain::new([-8.0, 0.0], 1.0, 16, heights).unwrap();
-    let behind_ridge = Surroundings { terrain: Some(&ridge), ..surroundings(&scene, &medium) };
+    let behind_ridge = Surroundings { terrain: Some(&ridge), ..surroundings(&outlook, &medium) };
     assert_eq!(seen(&behind_ridge), [0u32; 0]);
 }
 
@@ -130,10 +141,12 @@ proptest! {
         let place = Vec3::new(7.0, -3.0, 2.0);
         let own = Vec3::new(x, y, z);
         let scene = scene(&[place + attitude * own]);
+        let memory = Memory::default();
+        let outlook = Outlook::new(&scene, &memory);
         let medium = Medium::default();
         let turned = Surroundings {
             position: place, attitude, velocity: attitude * Vec3::Z, home: place + attitude * Vec3::Y,
-            ..surroundings(&scene, &medium)
+            ..surroundings(&outlook, &medium)
         };
         let mut percepts = turned.own_state();
         Sight::default().sense(&turned, &mut percepts).unwrap();
@@ -147,4 +160,91 @@ proptest! {
 
 fn glam_order() -> glam::EulerRot {
     glam::EulerRot::YXZ
+}
+
+#[test]
+fn the_distance_of_detection_is_fifteen_times_the_targets_size() {
+    let parameters = SightParameters::fish();
+    let seen_at = |size: f32, distance: f32| {
+        let mut scene = scene(&[Vec3::Z * distance]);
+        scene.batches[0].transforms[0].scale = size / 0.2;
+        let (memory, medium, mut percepts) =
+            (Memory::default(), Medium::default(), Percepts::default());
+        let outlook = Outlook::new(&scene, &memory);
+        let surroundings = surroundings(&outlook, &medium);
+        Sight::new(parameters.clone()).sense(&surroundings, &mut percepts).unwrap();
+        !percepts.seen.is_empty()
+    };
+    for size in [0.05, 0.2, 1.0] {
+        assert!(seen_at(size, 14.9 * size) && !seen_at(size, 15.1 * size), "{size} m");
+    }
+}
+
+#[test]
+fn one_part_that_shows_is_enough() {
+    // Ten metres long, looking at us from the side, with a pillar before its middle.
+    let mut scene = scene(&[Vec3::Z * 8.0]);
+    scene.batches[0].transforms[0] =
+        Transform::new(Vec3::Z * 8.0, Quat::from_rotation_y(1.5708), 20.0);
+    let (medium, memory) = (Medium::default(), Memory::default());
+    let outlook = Outlook::new(&scene, &memory);
+    let pillar = |radius: f32| {
+        [Obstacle::Cylinder {
+            base: Vec3::new(0.0, -9.0, 3.0),
+            top: Vec3::new(0.0, 9.0, 3.0),
+            radius,
+        }]
+    };
+    let behind = |pillars: &[Obstacle]| {
+        seen(&Surroundings { obstacles: pillars, ..surroundings(&outlook, &medium) })
+    };
+    assert_eq!(behind(&pillar(0.5)), [10]);
+    assert_eq!(behind(&pillar(2.9)), [0u32; 0]);
+}
+
+#[test]
+fn sizes_colors_headings_and_displays_are_seen_and_solids_noticed() {
+    let mut scene = scene(&[Vec3::Z * 2.0]);
+    let display = bioscope_core::Display { partner: 7, ..bioscope_core::Display::NONE };
+    scene.batches[0].tints = vec![[0.5, 1.0, 2.0]];
+    scene.batches[0].displays = vec![display];
+    scene.batches[0].transforms[0] =
+        Transform::new(Vec3::Z * 2.0, Quat::from_rotation_y(1.5708), 0.5);
+    let (medium, memory, mut percepts) =
+        (Medium::default(), Memory::default(), Percepts::default());
+    let outlook = Outlook::new(&scene, &memory);
+    let solids = [
+        Obstacle::Sphere { center: Vec3::new(-3.0, 0.0, 0.0), radius: 1.0 },
+        Obstacle::Sphere { center: Vec3::new(1.5, 0.0, 0.0), radius: 1.0 },
+        Obstacle::Sphere { center: Vec3::new(0.0, 40.0, 0.0), radius: 1.0 },
+    ];
+    let place = surroundings(&outlook, &medium);
+    let surroundings = Surroundings { obstacles: &solids, body_length: 0.5, ..place };
+    Sight::default().sense(&surroundings, &mut percepts).unwrap();
+    let one = &percepts.seen[0];
+    assert!((one.size - 0.1).abs() < 1e-6 && one.heading.distance(Vec3::X) < 1e-4, "{one:?}");
+    assert_eq!((one.color, one.display), ([0.4, 0.8, 1.6], display));
+    assert_eq!(percepts.solids.len(), 2);
+    assert!(
+        percepts.solids[0].distance(Vec3::new(0.51, 0.0, 0.145)) < 0.01,
+        "{:?}",
+        percepts.solids
+    );
+}
+
+#[test]
+fn what_moves_is_attended_to_before_what_stays() {
+    let places = [Vec3::Z, Vec3::Z * 2.0, Vec3::Z * 3.0];
+    let mut all = scene(&places);
+    let mut plants = scene(&places[..2]).batches.remove(0);
+    plants.velocities.clear();
+    plants.ids = vec![20, 21];
+    all.batches.push(plants);
+    let (medium, memory) = (Medium::default(), Memory::default());
+    let outlook = Outlook::new(&all, &memory);
+    let parameters = SightParameters { attention: 4.0, ..SightParameters::default() };
+    let mut percepts = Percepts::default();
+    Sight::new(parameters).sense(&surroundings(&outlook, &medium), &mut percepts).unwrap();
+    let ids: Vec<u32> = percepts.seen.iter().map(|one| one.id).collect();
+    assert_eq!(ids, [10, 20, 11, 12]);
 }

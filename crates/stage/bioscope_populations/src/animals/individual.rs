@@ -4,7 +4,7 @@ use bioscope_core::{Annotation, Error, Id, Intention, NOTHING, Percepts, Purpose
 use bioscope_dynamics::Influence;
 use bioscope_minds::Mind;
 use bioscope_motion::Body;
-use bioscope_senses::{Sense, Surroundings};
+use bioscope_senses::{Outlook, Sense, Surroundings};
 use bioscope_world::{Moment, View};
 use serde::{Deserialize, Serialize};
 
@@ -59,7 +59,7 @@ pub(super) struct Record {
 }
 
 impl Individual {
-    pub fn sense(&mut self, view: &View, influence: Influence) -> Result<()> {
+    pub fn sense(&mut self, view: &View, outlook: &Outlook, influence: Influence) -> Result<()> {
         let environment = view.environment;
         let placement = self.parts.body.placement();
         let medium = environment.medium();
@@ -70,7 +70,7 @@ impl Individual {
             velocity: self.parts.body.velocity(),
             body_length: self.parts.body.length(),
             home: self.record.home,
-            scene: view.scene,
+            outlook,
             sounds: view.sounds,
             influence,
             obstacles: &environment.obstacles,

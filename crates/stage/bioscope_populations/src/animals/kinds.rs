@@ -4,7 +4,7 @@ use std::sync::Arc;
 use bioscope_core::{Error, Result};
 use bioscope_minds::{Mind, Roamer};
 use bioscope_motion::{Body, Swimmer};
-use bioscope_senses::{Hearing, LateralLine, Light, Sense, Sight, Touch, restore};
+use bioscope_senses::{Eye, Hearing, LateralLine, Light, Sense, Sight, Smell, Touch, restore};
 
 use super::Look;
 
@@ -31,6 +31,8 @@ impl Default for Kinds {
         kinds.add_sense("sight", |bytes| Ok(Box::new(restore::<Sight>("sight", bytes)?)));
         kinds.add_sense("touch", |bytes| Ok(Box::new(restore::<Touch>("touch", bytes)?)));
         kinds.add_sense("hearing", |bytes| Ok(Box::new(restore::<Hearing>("hearing", bytes)?)));
+        kinds.add_sense("smell", |bytes| Ok(Box::new(restore::<Smell>("smell", bytes)?)));
+        kinds.add_sense("eye", |bytes| Ok(Box::new(restore::<Eye>("eye", bytes)?)));
         kinds.add_sense("light", |bytes| Ok(Box::new(restore::<Light>("light", bytes)?)));
         kinds.add_sense("lateral_line", |bytes| {
             Ok(Box::new(restore::<LateralLine>("lateral_line", bytes)?))

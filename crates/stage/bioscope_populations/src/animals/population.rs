@@ -5,6 +5,7 @@ use std::sync::Arc;
 use bioscope_core::{Error, Event, Id, NOTHING, Parameters, Purpose, Random, Result, Vec3, math};
 use bioscope_dynamics::Influence;
 use bioscope_geometry::{Batch, Transform};
+use bioscope_senses::{Memory, Outlook};
 use bioscope_world::{Environment, Growth, Inspection, Population, Publication, View};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -51,6 +52,8 @@ pub struct Animals {
     pub(super) options: AnimalsOptions,
     pub(super) individuals: Vec<Individual>,
     pub(super) kinds: Arc<Kinds>,
+    /// What the senses remember of the scene's meshes; no state.
+    pub(super) memory: Arc<Memory>,
 }
 
 impl Animals {
@@ -65,7 +68,7 @@ impl Animals {
             .into_iter()
             .map(|parts| Individual { id: NOTHING, parts, record: Record::default() })
             .collect();
-        Ok(Self { options, individuals, kinds })
+        Ok(Self { options, individuals, kinds, memory: Arc::default() })
     }
 
     /// Runs `work` on every individual: in parallel, or in order where a part is the user's own. Of
@@ -103,6 +106,7 @@ impl Animals {
             batch.transforms.push(parts.body.placement());
             batch.velocities.push(parts.body.velocity());
             batch.tints.push(record.tint);
+            batch.displays.push(record.intention.display);
             if joints > 0 {
                 let start = batch.poses.len();
                 batch.poses.resize(start + joints, Transform::IDENTITY);
@@ -183,7 +187,9 @@ impl Population for Animals {
 
     fn sense(&mut self, view: &View) -> Result<()> {
         let influences = self.influences(view)?;
-        self.each(|individual, index| individual.sense(view, influences[index]))
+        let memory = self.memory.clone();
+        let outlook = Outlook::new(view.scene, &memory);
+        self.each(|individual, index| individual.sense(view, &outlook, influences[index]))
     }
 
     fn decide(&mut self, view: &View) -> Result<()> {

@@ -35,7 +35,8 @@ impl Animals {
     /// The animals that `save` stored; their parts are built with `kinds`.
     pub fn from_saved(bytes: &[u8], kinds: Arc<Kinds>) -> Result<Self> {
         let state: State = state::from_bytes(PART, bytes)?;
-        let mut animals = Self { options: state.options, individuals: Vec::new(), kinds };
+        let (options, memory) = (state.options, Arc::default());
+        let mut animals = Self { options, individuals: Vec::new(), kinds, memory };
         for saved in state.individuals {
             let individual = animals.rebuild(saved)?;
             animals.individuals.push(individual);

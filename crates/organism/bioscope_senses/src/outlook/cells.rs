@@ -1,0 +1,138 @@
+use std::ops::RangeInclusive;
+
+use bioscope_core::{Id, Vec3};
+
+/// What sort of thing is perceived.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// Instance of a batch of the scene.
+    Instance,
+    /// One of the scene's points.
+    Point,
+}
+
+/// A thing that senses can notice.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Thing {
+    /// Where it is, metres in the world.
+    pub position: Vec3,
+    /// Its greatest extent, metres.
+    pub size: f32,
+    /// Its identity.
+    pub id: Id,
+    /// Where to find it: in which list of the scene,
+    pub kind: Kind,
+    /// in which batch or group of points,
+    pub group: u32,
+    /// and which of that group.
+    pub member: u32,
+}
+
+/// Cell edges per thing's size: about half the distance from which a thing is noticed at 4 degrees.
+const EDGE: f32 = 8.0;
+/// Bits of a cell's coordinate along one axis.
+const BITS: u32 = 19;
+const GREATEST: i64 = (1 << BITS) - 1;
+
+/// Things sorted by octave of size, then by cell (z, y, x), then as they came.
+#[derive(Debug, Default)]
+pub(super) struct Cells {
+    keys: Vec<u64>,
+    things: Vec<Thing>,
+    /// Octaves that occur.
+    octaves: Vec<i32>,
+}
+
+impl Cells {
+    pub fn new(things: Vec<Thing>) -> Self {
+        let mut keyed: Vec<(u64, u32)> =
+            things.iter().enumerate().map(|(index, one)| (key(one), index as u32)).collect();
+        keyed.sort_unstable();
+        let mut octaves: Vec<i32> = Vec::new();
+        for &(key, _) in &keyed {
+            let octave = (key >> (3 * BITS)) as i32 - OCTAVE_ZERO;
+            if octaves.last() != Some(&octave) {
+                octaves.push(octave);
+            }
+        }
+        let sorted = keyed.iter().map(|&(_, index)| things[index as usize]).collect();
+        Self { keys: keyed.into_iter().map(|(key, _)| key).collect(), things: sorted, octaves }
+    }
+
+    /// Calls `visit` for every thing that may lie within the distance that `reach` gives for its octave's
+    /// greatest size (metres), in a fixed order; some that lie farther are visited too.
+    pub fn near(&self, center: Vec3, reach: impl Fn(f32) -> f32, mut visit: impl FnMut(&Thing)) {
+        for &octave in &self.octaves {
+            let size = largest(octave);
+            let radius = reach(size);
+            if radius <= 0.0 {
+                continue;
+            }
+            let edge = EDGE * size;
+            let span = |axis: usize| -> RangeInclusive<i64> {
+                let cell = |place: f32| coordinate(place, edge);
+                cell(center[axis] - radius)..=cell(center[axis] + radius)
+            };
+            let (xs, ys, zs) = (span(0), span(1), span(2));
+            let rows = (ys.end() - ys.start() + 1) * (zs.end() - zs.start() + 1);
+            if rows > 256 {
+                // More rows to look up than is worth it: all of this size.
+                self.run(
+                    code(octave, 0, 0, 0),
+                    code(octave, GREATEST, GREATEST, GREATEST),
+                    &mut visit,
+                );
+                continue;
+            }
+            for z in zs {
+                for y in ys.clone() {
+                    let (first, last) =
+                        (code(octave, z, y, *xs.start()), code(octave, z, y, *xs.end()));
+                    self.run(first, last, &mut visit);
+                }
+            }
+        }
+    }
+
+    fn run(&self, first: u64, last: u64, visit: &mut impl FnMut(&Thing)) {
+        let start = self.keys.partition_point(|&key| key < first);
+        for index in start..self.keys.len() {
+            if self.keys[index] > last {
+                break;
+            }
+            visit(&self.things[index]);
+        }
+    }
+}
+
+/// Octave that is coded as zero.
+const OCTAVE_ZERO: i32 = 40;
+
+fn key(thing: &Thing) -> u64 {
+    let octave = octave(thing.size);
+    let edge = EDGE * largest(octave);
+    let [x, y, z] = thing.position.to_array().map(|place| coordinate(place, edge));
+    code(octave, z, y, x)
+}
+
+fn code(octave: i32, z: i64, y: i64, x: i64) -> u64 {
+    let octave = (octave + OCTAVE_ZERO) as u64;
+    (((((octave << BITS) | z as u64) << BITS) | y as u64) << BITS) | x as u64
+}
+
+/// Power of two at or above a size in metres: sizes in (2^(n-1), 2^n] are of octave n. From 2^-30 to 2^20.
+fn octave(size: f32) -> i32 {
+    let size = if size.is_finite() { size.max(1e-9) } else { 1e9 };
+    let exponent = ((size.to_bits() >> 23) & 0xff) as i32 - 127;
+    let exact = size.to_bits() & 0x007f_ffff == 0;
+    (if exact { exponent } else { exponent + 1 }).clamp(-30, 20)
+}
+
+/// Greatest size of an octave, metres.
+fn largest(octave: i32) -> f32 {
+    f32::from_bits(((octave + 127) as u32) << 23)
+}
+
+fn coordinate(place: f32, edge: f32) -> i64 {
+    ((place / edge).floor() as i64).saturating_add(1 << (BITS - 1)).clamp(0, GREATEST)
+}

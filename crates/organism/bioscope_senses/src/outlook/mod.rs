@@ -1,0 +1,14 @@
+//! What all senses of one tick share: living things and morsels sorted into cells, and the scene made
+//! ready for looking at.
+//!
+//! Things lie in one sorted list by octave of size and by cell; the cells of an octave are as large as its
+//! things are far to be seen. A query therefore costs what there is around the asker, however many live
+//! elsewhere.
+
+mod cells;
+mod shared;
+#[cfg(test)]
+mod tests;
+
+pub use cells::{Kind, Thing};
+pub use shared::{Memory, Outlook};
