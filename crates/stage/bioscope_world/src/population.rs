@@ -1,7 +1,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use bioscope_core::{Id, Parameters, Purpose, Random, Result, SoundEvent, Value};
+use bioscope_core::{Event, Id, Parameters, Purpose, Random, Result, SoundEvent, Value};
 use bioscope_geometry::{Camera, Scene};
 
 use crate::{Environment, Publication};
@@ -11,7 +11,7 @@ use crate::{Environment, Publication};
 /// In every tick each verb is called on every population before the next verb begins, in the order
 /// in which the populations were added. `sense` and `decide` see only the scene, sounds and fields
 /// that the previous tick published. A verb that fails ends the tick and leaves the world at the
-/// last complete one.
+/// last complete one. Verbs do nothing unless written: scenery only publishes.
 pub trait Population: Send {
     /// Word under which saved worlds find the constructor: `plants`, `fish_school`.
     fn kind(&self) -> &str;
@@ -21,16 +21,24 @@ pub trait Population: Send {
     fn settle(&mut self, growth: &mut Growth) -> Result<()>;
 
     /// Notices what there is to notice.
-    fn sense(&mut self, view: &View) -> Result<()>;
+    fn sense(&mut self, _view: &View) -> Result<()> {
+        Ok(())
+    }
 
     /// Turns percepts into intentions and motor commands.
-    fn decide(&mut self, view: &View) -> Result<()>;
+    fn decide(&mut self, _view: &View) -> Result<()> {
+        Ok(())
+    }
 
     /// Moves the bodies by one tick.
-    fn advance(&mut self, view: &View) -> Result<()>;
+    fn advance(&mut self, _view: &View) -> Result<()> {
+        Ok(())
+    }
 
     /// Births, deaths, rewriting, exchange with the environment.
-    fn grow(&mut self, growth: &mut Growth) -> Result<()>;
+    fn grow(&mut self, _growth: &mut Growth) -> Result<()> {
+        Ok(())
+    }
 
     /// Shows itself: a pure function of the state, so that it can be repeated after a restore.
     fn publish(&self, publication: &mut Publication) -> Result<()>;
@@ -105,6 +113,8 @@ pub struct View<'a> {
     pub scene: &'a Arc<Scene>,
     /// What sounded in the previous tick.
     pub sounds: &'a [SoundEvent],
+    /// What happened in the previous tick.
+    pub events: &'a [Event],
     /// Terrain, water, light, fields.
     pub environment: &'a Environment,
 }
@@ -113,6 +123,10 @@ pub struct View<'a> {
 pub struct Growth<'a> {
     /// Now.
     pub moment: Moment,
+    /// What the previous tick published.
+    pub scene: &'a Arc<Scene>,
+    /// What happened in the previous tick: who was bitten, what was shed.
+    pub events: &'a [Event],
     /// Terrain, water, light, fields.
     pub environment: &'a mut Environment,
     pub(crate) next_id: &'a mut Id,

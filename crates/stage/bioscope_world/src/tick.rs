@@ -25,13 +25,18 @@ impl World {
         self.each(tick, |population, view| population.advance(view))?;
         let moment = self.moment(tick);
         for resident in &mut self.populations {
-            let environment = &mut self.environment;
-            let mut growth = Growth { moment, environment, next_id: &mut self.next_id };
+            let mut growth = Growth {
+                moment,
+                scene: &self.scene,
+                events: &self.latest,
+                environment: &mut self.environment,
+                next_id: &mut self.next_id,
+            };
             resident.population.grow(&mut growth)?;
         }
         self.tick = tick;
-        let events = self.publish()?;
-        self.events.extend(events);
+        self.publish()?;
+        self.events.extend_from_slice(&self.latest);
         Ok(())
     }
 
@@ -51,11 +56,11 @@ impl World {
 
     /// Publishes the present state again, after a change from outside.
     pub fn publish_again(&mut self) -> Result<()> {
-        self.publish().map(drop)
+        self.publish()
     }
 
-    /// Rebuilds scene and sounds from the state; returns the events of the tick.
-    pub(crate) fn publish(&mut self) -> Result<Vec<bioscope_core::Event>> {
+    /// Rebuilds scene, sounds and the tick's events from the state.
+    pub(crate) fn publish(&mut self) -> Result<()> {
         let moment = self.moment(self.tick);
         let scene = Scene { tick: moment.tick, time: moment.time, ..Scene::default() };
         let mut publication = Publication { moment, scene, sounds: Vec::new(), events: Vec::new() };
@@ -66,6 +71,7 @@ impl World {
         }
         self.scene = Arc::new(publication.scene);
         self.sounds = publication.sounds;
-        Ok(publication.events)
+        self.latest = publication.events;
+        Ok(())
     }
 }

@@ -27,6 +27,9 @@ pub struct World {
     pub(crate) next_id: Id,
     pub(crate) scene: Arc<Scene>,
     pub(crate) sounds: Vec<SoundEvent>,
+    /// What happened in the last tick.
+    pub(crate) latest: Vec<Event>,
+    /// What has happened since the start, or since an observer took it.
     pub(crate) events: Vec<Event>,
     recorder: Option<Recorder>,
 }
@@ -65,6 +68,7 @@ impl World {
             next_id: 1,
             scene: Arc::default(),
             sounds: Vec::new(),
+            latest: Vec::new(),
             events: Vec::new(),
             recorder: None,
         })
@@ -124,8 +128,13 @@ impl World {
     ) -> Result<String> {
         let name = self.free_name(name, &population.default_name())?;
         let moment = self.moment(self.tick);
-        let mut growth =
-            Growth { moment, environment: &mut self.environment, next_id: &mut self.next_id };
+        let mut growth = Growth {
+            moment,
+            scene: &self.scene,
+            events: &self.latest,
+            environment: &mut self.environment,
+            next_id: &mut self.next_id,
+        };
         population.settle(&mut growth)?;
         self.populations.push(Resident { name: name.clone(), population });
         self.publish()?;
@@ -162,7 +171,13 @@ impl World {
     }
 
     pub(crate) fn view(&self, moment: Moment) -> View<'_> {
-        View { moment, scene: &self.scene, sounds: &self.sounds, environment: &self.environment }
+        View {
+            moment,
+            scene: &self.scene,
+            sounds: &self.sounds,
+            events: &self.latest,
+            environment: &self.environment,
+        }
     }
 
     /// Everything that has parameters, by name, with descriptions and current values.

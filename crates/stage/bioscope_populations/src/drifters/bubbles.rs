@@ -277,14 +277,6 @@ impl Population for Bubbles {
         Ok(())
     }
 
-    fn sense(&mut self, _view: &View) -> Result<()> {
-        Ok(())
-    }
-
-    fn decide(&mut self, _view: &View) -> Result<()> {
-        Ok(())
-    }
-
     fn advance(&mut self, view: &View) -> Result<()> {
         let surface = surface(view.environment)?;
         let State { options, bubbles, .. } = &mut self.state;

@@ -266,14 +266,6 @@ impl Population for Plankton {
         Ok(())
     }
 
-    fn sense(&mut self, _view: &View) -> Result<()> {
-        Ok(())
-    }
-
-    fn decide(&mut self, _view: &View) -> Result<()> {
-        Ok(())
-    }
-
     fn advance(&mut self, view: &View) -> Result<()> {
         let State { options, drifters } = &mut self.state;
         let points = drifters.iter().map(|one| one.position).collect::<Vec<_>>();

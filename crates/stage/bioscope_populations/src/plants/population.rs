@@ -127,14 +127,6 @@ impl Population for Plants {
         Ok(())
     }
 
-    fn sense(&mut self, _view: &View) -> Result<()> {
-        Ok(())
-    }
-
-    fn decide(&mut self, _view: &View) -> Result<()> {
-        Ok(())
-    }
-
     fn advance(&mut self, view: &View) -> Result<()> {
         let shapes = &self.shapes.variants;
         let points: Vec<Vec3> = self
@@ -154,10 +146,6 @@ impl Population for Plants {
             let length = length * plant.size;
             plant.sway.advance(influence.flow, length, view.moment.dt, &options.parameters);
         });
-        Ok(())
-    }
-
-    fn grow(&mut self, _growth: &mut Growth) -> Result<()> {
         Ok(())
     }
 

@@ -167,22 +167,6 @@ impl Population for Ground {
         Ok(())
     }
 
-    fn sense(&mut self, _view: &View) -> Result<()> {
-        Ok(())
-    }
-
-    fn decide(&mut self, _view: &View) -> Result<()> {
-        Ok(())
-    }
-
-    fn advance(&mut self, _view: &View) -> Result<()> {
-        Ok(())
-    }
-
-    fn grow(&mut self, _growth: &mut Growth) -> Result<()> {
-        Ok(())
-    }
-
     fn publish(&self, publication: &mut Publication) -> Result<()> {
         for (number, (tile, &id)) in self.assets.tiles.iter().zip(&self.state.ids).enumerate() {
             let name = free_name(&publication.scene, &format!("{}/{number}", tile.species));

@@ -181,22 +181,6 @@ impl Population for Props {
         Ok(())
     }
 
-    fn sense(&mut self, _view: &View) -> Result<()> {
-        Ok(())
-    }
-
-    fn decide(&mut self, _view: &View) -> Result<()> {
-        Ok(())
-    }
-
-    fn advance(&mut self, _view: &View) -> Result<()> {
-        Ok(())
-    }
-
-    fn grow(&mut self, _growth: &mut Growth) -> Result<()> {
-        Ok(())
-    }
-
     fn publish(&self, publication: &mut Publication) -> Result<()> {
         let State { options, props } = &self.state;
         let name = free_name(&publication.scene, &options.species);

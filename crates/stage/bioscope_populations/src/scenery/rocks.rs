@@ -232,22 +232,6 @@ impl Population for Rocks {
         Ok(())
     }
 
-    fn sense(&mut self, _view: &View) -> Result<()> {
-        Ok(())
-    }
-
-    fn decide(&mut self, _view: &View) -> Result<()> {
-        Ok(())
-    }
-
-    fn advance(&mut self, _view: &View) -> Result<()> {
-        Ok(())
-    }
-
-    fn grow(&mut self, _growth: &mut Growth) -> Result<()> {
-        Ok(())
-    }
-
     fn publish(&self, publication: &mut Publication) -> Result<()> {
         let species: Arc<str> = Arc::from(self.state.options.species.as_str());
         for (number, mesh) in self.assets.shapes.iter().enumerate() {

@@ -304,10 +304,6 @@ impl Population for FishSchool {
         Ok(())
     }
 
-    fn grow(&mut self, _growth: &mut Growth) -> Result<()> {
-        Ok(())
-    }
-
     fn publish(&self, publication: &mut Publication) -> Result<()> {
         let name = free_name(&publication.scene, &self.options.species.name);
         publication.scene.batches.push(self.batch(name));

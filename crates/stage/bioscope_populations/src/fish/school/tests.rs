@@ -78,20 +78,8 @@ impl Population for Puppet {
         Ok(())
     }
 
-    fn sense(&mut self, _view: &View) -> Result<()> {
-        Ok(())
-    }
-
-    fn decide(&mut self, _view: &View) -> Result<()> {
-        Ok(())
-    }
-
     fn advance(&mut self, view: &View) -> Result<()> {
         self.place += self.velocity * view.moment.dt;
-        Ok(())
-    }
-
-    fn grow(&mut self, _growth: &mut Growth) -> Result<()> {
         Ok(())
     }
 

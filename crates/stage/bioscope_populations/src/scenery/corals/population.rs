@@ -272,18 +272,6 @@ impl Population for Corals {
         Ok(())
     }
 
-    fn sense(&mut self, _view: &View) -> Result<()> {
-        Ok(())
-    }
-
-    fn decide(&mut self, _view: &View) -> Result<()> {
-        Ok(())
-    }
-
-    fn advance(&mut self, _view: &View) -> Result<()> {
-        Ok(())
-    }
-
     fn grow(&mut self, growth: &mut Growth) -> Result<()> {
         self.crackle(growth.moment);
         Ok(())
