@@ -1,10 +1,15 @@
 //! What stands before and after a module, branches taken into account.
 //!
 //! Leftward, complete side branches are passed over and an opening bracket is climbed out of.
-//! Rightward, side branches are passed over where the context does not name a bracket; a
-//! bracket in the context must be there. `ignore:` and `consider:` say what else is passed over.
+//! Rightward there are three ways, see [`RightContext`]. `ignore:` and `consider:` say what else
+//! is passed over.
 
-use crate::{Alphabet, ModuleString, expression::Bindings, model::Pattern};
+use std::sync::OnceLock;
+
+use crate::{
+    Alphabet, ModuleString,
+    model::{Pattern, RightContext},
+};
 
 /// A module's place in a string.
 #[derive(Clone, Copy, Debug)]
@@ -15,19 +20,74 @@ pub(crate) struct Place {
     pub parameter: usize,
 }
 
+/// How deeply a search for a right context may go into branches of branches.
+const DEPTH_LIMIT: usize = 1000;
+/// How far the other bracket of a group is looked for before all groups are tabulated.
+const NEAR: usize = 64;
+
+/// The brackets of a string.
+#[derive(Default)]
+pub(crate) struct Groups {
+    table: OnceLock<Table>,
+}
+
+/// By module: the number of the group that a bracket opens or closes.
+struct Table {
+    group: Vec<u32>,
+    /// Places of the brackets that open and close each group.
+    ends: Vec<(Place, Place)>,
+}
+
+impl Table {
+    fn new(string: &ModuleString, arities: &[u8; 256]) -> Self {
+        let mut group = vec![0; string.kinds.len()];
+        let (mut ends, mut open): (Vec<(Place, Place)>, Vec<u32>) = (Vec::new(), Vec::new());
+        let first = Place { module: 0, parameter: 0 };
+        let mut place = first;
+        for &kind in &string.kinds {
+            if kind == Alphabet::OPEN {
+                group[place.module] = ends.len() as u32;
+                open.push(ends.len() as u32);
+                ends.push((place, place));
+            } else if kind == Alphabet::CLOSE {
+                let number = open.pop().unwrap_or_else(|| {
+                    ends.push((first, place));
+                    ends.len() as u32 - 1
+                });
+                group[place.module] = number;
+                ends[number as usize].1 = place;
+            }
+            place.module += 1;
+            place.parameter += arities[kind as usize] as usize;
+        }
+        for number in open {
+            ends[number as usize].1 = place;
+        }
+        Self { group, ends }
+    }
+}
+
 /// Looks for contexts in one string.
 pub(crate) struct Matcher<'a> {
     pub string: &'a ModuleString,
     pub skipped: &'a [bool],
     /// Number of parameters of each kind.
-    pub arities: &'a [u8],
+    pub arities: &'a [u8; 256],
+    pub groups: &'a Groups,
+    pub right_context: RightContext,
+    pub is_ring: bool,
+    /// How many searches within searches are going on.
+    pub depth: usize,
     /// Modules looked at, for the bound on the work of a derivation.
     pub looked: u64,
+    /// What `looked` must not exceed: no context matches then.
+    pub limit: u64,
 }
 
 impl Matcher<'_> {
     /// Whether these patterns stand directly one after the other from `place` on; binds them.
-    pub fn follows(&self, patterns: &[Pattern], place: Place, bindings: &mut Bindings) -> bool {
+    #[inline]
+    pub fn follows(&self, patterns: &[Pattern], place: Place, slots: &mut [f64]) -> bool {
         let Place { module, mut parameter } = place;
         let Some(kinds) = self.string.kinds.get(module..module + patterns.len()) else {
             return false;
@@ -36,24 +96,26 @@ impl Matcher<'_> {
             return false;
         }
         for pattern in patterns {
-            self.bind(pattern, parameter, bindings);
+            self.bind(pattern, parameter, slots);
             parameter += pattern.arity as usize;
         }
         true
     }
 
     /// Whether these patterns precede `place` on its way to the root; binds them.
-    pub fn precedes(
-        &mut self,
-        patterns: &[Pattern],
-        place: Place,
-        bindings: &mut Bindings,
-    ) -> bool {
+    pub fn precedes(&mut self, patterns: &[Pattern], place: Place, slots: &mut [f64]) -> bool {
         let Place { mut module, mut parameter } = place;
+        let mut turned = false;
         for pattern in patterns.iter().rev() {
             loop {
                 if module == 0 {
-                    return false;
+                    if !self.is_ring || turned {
+                        return false;
+                    }
+                    turned = true;
+                    module = self.string.kinds.len();
+                    parameter = self.string.parameters.len();
+                    continue;
                 }
                 module -= 1;
                 self.looked += 1;
@@ -61,10 +123,16 @@ impl Matcher<'_> {
                 parameter -= self.arities[kind as usize] as usize;
                 if kind == Alphabet::CLOSE {
                     (module, parameter) = self.group_start(module, parameter);
+                } else if kind == Alphabet::OPEN {
+                    // Climbs out of the branch.
+                } else if self.skipped[kind as usize] {
+                    if self.looked > self.limit {
+                        return false;
+                    }
                 } else if kind == pattern.kind {
-                    self.bind(pattern, parameter, bindings);
+                    self.bind(pattern, parameter, slots);
                     break;
-                } else if kind != Alphabet::OPEN && !self.skipped[kind as usize] {
+                } else {
                     return false;
                 }
             }
@@ -73,68 +141,198 @@ impl Matcher<'_> {
     }
 
     /// Whether these patterns succeed the module that ends before `place`; binds them.
-    pub fn succeeds(
+    pub fn succeeds(&mut self, patterns: &[Pattern], place: Place, slots: &mut [f64]) -> bool {
+        if patterns.is_empty() {
+            return true;
+        }
+        match self.right_context {
+            RightContext::Reference => self.succeeds_literally(patterns, place, slots),
+            _ => self.succeeds_in_branches(patterns, place, slots),
+        }
+    }
+
+    fn succeeds_literally(
         &mut self,
         patterns: &[Pattern],
-        place: Place,
-        bindings: &mut Bindings,
+        mut place: Place,
+        slots: &mut [f64],
     ) -> bool {
-        let mut place = place;
+        let mut turned = false;
         for pattern in patterns {
-            let found = match pattern.kind {
-                Alphabet::CLOSE => Some(self.after_group(place)),
-                _ => self.next(pattern, place),
-            };
-            let Some(found) = found else { return false };
-            place = found;
-            if pattern.kind > Alphabet::CLOSE {
-                self.bind(pattern, found.parameter, bindings);
-                place.module += 1;
-                place.parameter += pattern.arity as usize;
-            } else if pattern.kind == Alphabet::OPEN {
-                place.module += 1;
+            if pattern.kind == Alphabet::REST {
+                place = self.after_group(place);
+                place.module = place.module.saturating_sub(1);
+                continue;
+            }
+            loop {
+                if self.is_ring && !turned && place.module == self.string.kinds.len() {
+                    turned = true;
+                    place = Place { module: 0, parameter: 0 };
+                }
+                let Some(&kind) = self.string.kinds.get(place.module) else { return false };
+                self.looked += 1;
+                if kind == Alphabet::REPORTED_CUT || self.looked > self.limit {
+                    return false;
+                }
+                let after = self.after(place, kind);
+                if self.skipped[kind as usize] {
+                    place = after;
+                } else if kind == Alphabet::OPEN && pattern.kind != Alphabet::OPEN {
+                    place = self.after_group(after);
+                } else if kind == pattern.kind {
+                    self.bind(pattern, place.parameter, slots);
+                    place = after;
+                    break;
+                } else {
+                    return false;
+                }
             }
         }
         true
     }
 
-    /// The next module on the axis from `place` on, if it matches.
-    fn next(&mut self, pattern: &Pattern, mut place: Place) -> Option<Place> {
-        loop {
-            let &kind = self.string.kinds.get(place.module)?;
+    fn succeeds_in_branches(
+        &mut self,
+        patterns: &[Pattern],
+        place: Place,
+        slots: &mut [f64],
+    ) -> bool {
+        let Some(pattern) = patterns.first() else { return true };
+        if self.looked > self.limit || self.depth > DEPTH_LIMIT {
+            return false;
+        }
+        self.depth += 1;
+        let succeeds = if pattern.kind == Alphabet::OPEN {
+            self.succeeds_in_group(patterns, place, slots)
+        } else {
+            self.succeeds_on_axis(patterns, place, slots)
+        };
+        self.depth -= 1;
+        succeeds
+    }
+
+    /// The next module on the axis matches the first pattern, and what follows it the others.
+    fn succeeds_on_axis(&mut self, patterns: &[Pattern], place: Place, slots: &mut [f64]) -> bool {
+        let pattern = &patterns[0];
+        let (mut here, mut passed) = (place, Vec::new());
+        while let Some(&kind) = self.string.kinds.get(here.module) {
             self.looked += 1;
-            if kind == pattern.kind {
-                return Some(place);
-            }
-            if kind == Alphabet::OPEN && pattern.kind != Alphabet::OPEN {
-                place.module += 1;
-                place = self.after_group(place);
-            } else if kind > Alphabet::CLOSE && self.skipped[kind as usize] {
-                place.module += 1;
-                place.parameter += self.arities[kind as usize] as usize;
+            let after = self.after(here, kind);
+            if kind == Alphabet::OPEN {
+                passed.push(after);
+                here = self.after_group(after);
+            } else if kind == Alphabet::CLOSE {
+                break;
+            } else if kind == pattern.kind {
+                self.bind(pattern, here.parameter, slots);
+                if self.succeeds_in_branches(&patterns[1..], after, slots) {
+                    return true;
+                }
+                break;
+            } else if self.skipped[kind as usize] {
+                here = after;
             } else {
-                return None;
+                break;
             }
+        }
+        self.right_context == RightContext::Tree
+            && passed.into_iter().any(|branch| self.succeeds_in_branches(patterns, branch, slots))
+    }
+
+    /// `[v]w`: the beginning of one of the groups that stand here matches v, what follows it w.
+    fn succeeds_in_group(
+        &mut self,
+        patterns: &[Pattern],
+        mut place: Place,
+        slots: &mut [f64],
+    ) -> bool {
+        let mut depth = 0;
+        let close = patterns.iter().position(|pattern| {
+            depth += i32::from(pattern.kind == Alphabet::OPEN)
+                - i32::from(pattern.kind == Alphabet::CLOSE);
+            depth == 0
+        });
+        let close = close.unwrap_or(patterns.len() - 1);
+        let (inside, rest) = (&patterns[1..close], &patterns[close + 1..]);
+        while let Some(&kind) = self.string.kinds.get(place.module) {
+            self.looked += 1;
+            let after = self.after(place, kind);
+            if kind == Alphabet::OPEN {
+                let end = self.after_group(after);
+                if self.succeeds_in_branches(inside, after, slots)
+                    && self.succeeds_in_branches(rest, end, slots)
+                {
+                    return true;
+                }
+                place = end;
+            } else if kind != Alphabet::CLOSE && self.skipped[kind as usize] {
+                place = after;
+            } else {
+                return false;
+            }
+        }
+        false
+    }
+
+    #[inline]
+    fn after(&self, place: Place, kind: u8) -> Place {
+        Place {
+            module: place.module + 1,
+            parameter: place.parameter + self.arities[kind as usize] as usize,
         }
     }
 
     /// The place after the bracket that closes the group that `place` is in.
     fn after_group(&mut self, mut place: Place) -> Place {
+        let start = place;
         let mut depth = 1;
-        while depth > 0 && place.module < self.string.kinds.len() {
+        let kinds = &self.string.kinds;
+        while depth > 0 && place.module < kinds.len() {
+            if place.module == start.module + NEAR {
+                return self.after_far_group(start);
+            }
             self.looked += 1;
-            let kind = self.string.kinds[place.module];
+            let kind = kinds[place.module];
             depth += i32::from(kind == Alphabet::OPEN) - i32::from(kind == Alphabet::CLOSE);
-            place.module += 1;
-            place.parameter += self.arities[kind as usize] as usize;
+            place = self.after(place, kind);
+        }
+        place
+    }
+
+    fn after_far_group(&self, start: Place) -> Place {
+        let table = self.table();
+        let mut place = start;
+        let kinds = &self.string.kinds;
+        while place.module < kinds.len() {
+            match kinds[place.module] {
+                Alphabet::OPEN => {
+                    let group = table.group[place.module] as usize;
+                    place = table.ends[group].1;
+                    if place.module >= kinds.len() {
+                        return place;
+                    }
+                    place.module += 1;
+                }
+                Alphabet::CLOSE => {
+                    place.module += 1;
+                    return place;
+                }
+                kind => place = self.after(place, kind),
+            }
         }
         place
     }
 
     /// The bracket that opens the group whose closing bracket is `module`.
-    fn group_start(&mut self, mut module: usize, mut parameter: usize) -> (usize, usize) {
+    fn group_start(&mut self, close: usize, mut parameter: usize) -> (usize, usize) {
+        let mut module = close;
         let mut depth = 1;
         while depth > 0 && module > 0 {
+            if close - module == NEAR {
+                let table = self.table();
+                let open = table.ends[table.group[close] as usize].0;
+                return (open.module, open.parameter);
+            }
             module -= 1;
             self.looked += 1;
             let kind = self.string.kinds[module];
@@ -144,11 +342,16 @@ impl Matcher<'_> {
         (module, parameter)
     }
 
-    fn bind(&self, pattern: &Pattern, parameter: usize, bindings: &mut Bindings) {
+    fn table(&self) -> &Table {
+        self.groups.table.get_or_init(|| Table::new(self.string, self.arities))
+    }
+
+    #[inline]
+    fn bind(&self, pattern: &Pattern, parameter: usize, slots: &mut [f64]) {
         let slot = pattern.slot as usize;
         let arity = pattern.arity as usize;
         let values = &self.string.parameters[parameter..parameter + arity];
-        for (slot, &value) in bindings.slots[slot..slot + arity].iter_mut().zip(values) {
+        for (slot, &value) in slots[slot..slot + arity].iter_mut().zip(values) {
             *slot = f64::from(value);
         }
     }

@@ -3,137 +3,193 @@
 //! All modules are replaced at once, each by the first production that applies to it. If that
 //! production has a probability, one is drawn among all that apply, by their probabilities; the
 //! draw depends only on seed, step and the module's number, so it does not depend on threads.
+//!
+//! Files of the cpfg dialect that are derived without a seed give the strings of the reference
+//! program: they draw from its streams, module after module. With a seed they use ours.
 
-use std::sync::Arc;
+mod error;
+mod exchange;
+mod expansion;
+mod parallel;
+mod pass;
 
-use bioscope_core::{Purpose, Random};
-
-use crate::{
-    Alphabet, LSystem, ModuleString, Place,
-    context::{self, Matcher},
-    expression::{Bindings, is_true, run},
-    model::{Action, Production, ProductionSet, Successor},
+use std::{
+    path::PathBuf,
+    sync::Arc,
+    time::{Duration, Instant},
 };
 
-const CHOICE: Purpose = Purpose::new("lsystem production");
+pub use error::{DerivationError, Limits};
+use pass::{Layer, Made, Task};
 
-/// What a derivation may use before it is stopped.
+use crate::{
+    Alphabet, Environment, Functions, LSystem, ModuleString, TurtleOptions,
+    context::Groups,
+    machine::{Machine, Program, Randomness},
+    model::{Order, ProductionSet, System},
+};
+
+type Derived<T> = Result<T, DerivationError>;
+
+/// How a production is chosen among those that apply.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Limits {
-    /// Modules in one string.
-    pub modules: usize,
-    /// Bytes of one string, its parameters included.
-    pub bytes: usize,
-    /// Modules looked at in all steps together.
-    pub operations: u64,
+enum Choice {
+    /// The first.
+    First,
+    /// The first, but if it has a weight then by weight among all.
+    FirstOrWeighted,
+    /// By weight among all; 1 where there is none.
+    Weighted,
+    /// Likewise, with the random numbers of the reference program.
+    Reference,
 }
 
-impl Default for Limits {
-    /// 200 million modules, 2 GiB, 20 thousand million operations.
+/// What a derivation needs to know beside the L-system.
+pub struct DerivationOptions {
+    /// Seed of the random numbers. Without one, files of the cpfg dialect draw the numbers of
+    /// the reference program, and files of our own notation have seed 0.
+    pub seed: Option<u64>,
+    /// What it may use.
+    pub limits: Limits,
+    /// Seconds after which it is stopped.
+    pub seconds: Option<f64>,
+    /// Whether it may use several threads; the string does not depend on that.
+    pub threads: bool,
+    /// Functions and curves that the model looks up.
+    pub functions: Option<Arc<dyn Functions>>,
+    /// What surrounds the plant.
+    pub environment: Option<Box<dyn Environment>>,
+    /// How the turtle walks, for modules that ask for its place.
+    pub turtle: TurtleOptions,
+    /// The folder in which the model may read and write files.
+    pub folder: Option<PathBuf>,
+}
+
+impl Default for DerivationOptions {
+    /// No seed, default limits, several threads, no surroundings.
     fn default() -> Self {
-        Self { modules: 200_000_000, bytes: 2 << 30, operations: 20_000_000_000 }
-    }
-}
-
-/// Why a derivation stopped.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum DerivationError {
-    /// A bound was reached.
-    #[error("{place}: {what} at step {step}; the string grows most by '{production}'")]
-    Limit {
-        /// Where the production stands that made most of the string.
-        place: Place,
-        /// The bound.
-        what: String,
-        /// The derivation step, from 1.
-        step: u64,
-        /// The production, as it is written.
-        production: String,
-    },
-    /// A production could not be evaluated.
-    #[error("{place}: {what} at step {step} in '{production}'")]
-    Fault {
-        /// Where the production stands.
-        place: Place,
-        /// What went wrong.
-        what: String,
-        /// The derivation step, from 1; 0 for the axiom.
-        step: u64,
-        /// The production, as it is written.
-        production: String,
-    },
-}
-
-impl From<DerivationError> for bioscope_core::Error {
-    fn from(error: DerivationError) -> Self {
-        match error {
-            DerivationError::Limit { place, what, step, production } => Self::Format {
-                place: place.to_string(),
-                message: format!("{what} at step {step}; the string grows most by '{production}'"),
-            },
-            DerivationError::Fault { place, what, step, production } => Self::Format {
-                place: place.to_string(),
-                message: format!("{what} at step {step} in '{production}'"),
-            },
+        Self {
+            seed: None,
+            limits: Limits::default(),
+            seconds: None,
+            threads: true,
+            functions: None,
+            environment: None,
+            turtle: TurtleOptions::default(),
+            folder: None,
         }
     }
 }
 
-type Derived<T> = Result<T, DerivationError>;
-
 impl LSystem {
-    /// The string after so many steps from the axiom, within the default [`Limits`].
-    pub fn derive(&self, steps: u64, seed: u64) -> Derived<ModuleString> {
+    /// The string after so many steps from the axiom, within the default [`Limits`]. Without a
+    /// seed, files of the cpfg dialect give the string of the reference program.
+    pub fn derive(&self, steps: u64, seed: impl Into<Option<u64>>) -> Derived<ModuleString> {
         self.derive_within(steps, seed, &Limits::default())
     }
 
     /// The string after so many steps from the axiom, within `limits`.
-    pub fn derive_within(&self, steps: u64, seed: u64, limits: &Limits) -> Derived<ModuleString> {
+    pub fn derive_within(
+        &self,
+        steps: u64,
+        seed: impl Into<Option<u64>>,
+        limits: &Limits,
+    ) -> Derived<ModuleString> {
         let mut derivation = Derivation::new(self, seed, *limits)?;
         for _ in 0..steps {
             derivation.advance()?;
         }
-        Ok(derivation.string)
+        derivation.finish()
     }
 
     /// What the modules of a string look like: the string after the productions of the file's
     /// `homomorphism:` part, or the string itself if there is none.
-    pub fn appearance(&self, string: &ModuleString, seed: u64) -> Derived<ModuleString> {
-        let Some(set) = &self.homomorphism else { return Ok(string.clone()) };
-        let limits = Limits::default();
-        let mut rewriter = Rewriter::new(self, seed, &limits);
-        rewriter.repeat(set, string.clone(), 0, APPEARANCE)
+    pub fn appearance(
+        &self,
+        string: &ModuleString,
+        seed: impl Into<Option<u64>>,
+    ) -> Derived<ModuleString> {
+        if self.systems.iter().all(|system| system.homomorphism.is_none()) {
+            return Ok(string.clone());
+        }
+        let options = DerivationOptions { seed: seed.into(), ..Default::default() };
+        let mut derivation = Derivation::begin(self, options);
+        if let Some(memory) = &string.memory {
+            derivation.machine.recall(memory);
+            derivation.step = memory.step;
+        }
+        Ok(derivation.shown(string, None)?.0)
     }
 }
 
 /// Tells the random numbers of the parts of a step apart.
 const REWRITING: u64 = 0;
-const DECOMPOSITION: u64 = 1 << 20;
 const APPEARANCE: u64 = 2 << 20;
+/// What a step costs at least, in operations.
+const STEP_COST: u64 = 256;
 
 /// A string that is being derived step by step.
 pub struct Derivation<'a> {
     system: &'a LSystem,
     string: ModuleString,
     step: u64,
-    rewriter: Rewriter<'a>,
+    machine: Machine,
+    options: DerivationOptions,
+    operations: u64,
+    deadline: Option<Instant>,
+    arities: [u8; 256],
 }
 
 impl<'a> Derivation<'a> {
     /// Begins with the axiom.
-    pub fn new(system: &'a LSystem, seed: u64, limits: Limits) -> Derived<Self> {
-        let mut rewriter = Rewriter::new(system, seed, &limits);
-        let mut string = ModuleString::new(system.alphabet.clone());
-        append(&system.axiom, &mut string, &mut rewriter.bindings);
-        if let Some(fault) = rewriter.bindings.fault.take() {
-            return Err(DerivationError::Fault {
-                place: system.axiom_place.clone(),
-                what: fault.to_string(),
-                step: 0,
-                production: "axiom".into(),
-            });
+    pub fn new(system: &'a LSystem, seed: impl Into<Option<u64>>, limits: Limits) -> Derived<Self> {
+        let options = DerivationOptions { seed: seed.into(), limits, ..Default::default() };
+        Self::with_options(system, options)
+    }
+
+    /// Begins with the axiom: runs the start blocks of the file and fills its queries.
+    pub fn with_options(system: &'a LSystem, options: DerivationOptions) -> Derived<Self> {
+        let mut derivation = Self::begin(system, options);
+        for part in &system.systems {
+            derivation.block(&part.blocks.start, "start:")?;
         }
-        Ok(Self { system, string, step: 0, rewriter })
+        let axiom = &system.axiom;
+        derivation.string.kinds.extend_from_slice(&axiom.kinds);
+        derivation.machine.run(&axiom.program, &mut derivation.string.parameters);
+        derivation.examine("axiom:")?;
+        derivation.exchange()?;
+        derivation.remember();
+        Ok(derivation)
+    }
+
+    fn begin(system: &'a LSystem, mut options: DerivationOptions) -> Self {
+        let mut arities = [0; 256];
+        for (arity, kind) in arities.iter_mut().zip(system.alphabet.kinds()) {
+            *arity = kind.arity;
+        }
+        let random = match options.seed {
+            Some(seed) => Randomness::counter(seed),
+            None if system.is_own() => Randomness::counter(0),
+            None => Randomness::reference(system.systems[0].homomorphism_seed),
+        };
+        let length = f64::from(system.derivation_length);
+        let fuel = options.limits.operations;
+        let mut machine = Machine::new(system.pool.clone(), length, random, fuel);
+        machine.functions = options.functions.take();
+        machine.output.folder = options.folder.take();
+        Self {
+            system,
+            string: ModuleString::new(system.alphabet.clone()),
+            step: 0,
+            machine,
+            operations: 0,
+            deadline: options.seconds.map(|seconds| {
+                // A day is as good as for ever, and cannot overflow.
+                Instant::now() + Duration::from_secs_f64(seconds.clamp(0.0, 86_400.0))
+            }),
+            options,
+            arities,
+        }
     }
 
     /// The string so far.
@@ -146,23 +202,218 @@ impl<'a> Derivation<'a> {
         self.step
     }
 
+    /// After how many steps the model is complete: what the file says, unless a block of it has
+    /// set another length.
+    pub fn length(&self) -> u64 {
+        self.machine.length as u64
+    }
+
+    /// What the model has printed so far.
+    pub fn output(&self) -> &str {
+        &self.machine.output.text
+    }
+
+    /// What was tolerated but is doubtful, such as divisions by zero.
+    pub fn remarks(&self) -> Vec<String> {
+        let oddities = self.machine.oddities;
+        let remark =
+            |count: u64, what: &str| (count > 0).then(|| format!("{what} ({count} times)"));
+        [
+            remark(oddities.divisions_by_zero, "division by zero"),
+            remark(oddities.indices_out_of_range, "index out of the range of its array"),
+        ]
+        .into_iter()
+        .flatten()
+        .collect()
+    }
+
     /// Makes one step.
     pub fn advance(&mut self) -> Derived<()> {
         self.step += 1;
-        let cut;
-        let string = if self.string.kinds.contains(&Alphabet::CUT) {
-            cut = without_cut_branches(&self.string);
-            &cut
-        } else {
-            &self.string
-        };
-        let mut next =
-            self.rewriter.rewrite(&self.system.rewriting, string, self.step, REWRITING)?;
-        if let Some(set) = &self.system.decomposition {
-            next = self.rewriter.repeat(set, next, self.step, DECOMPOSITION)?;
+        self.machine.begin_step(self.step);
+        for part in &self.system.systems {
+            self.block(&part.blocks.start_each, "startEach:")?;
         }
-        self.string = next;
+        let is_cut = |&kind: &u8| matches!(kind, Alphabet::CUT | Alphabet::REPORTED_CUT);
+        if self.system.is_own() && self.string.kinds.iter().any(is_cut) {
+            self.string = without_cut_branches(&self.string);
+        }
+        let next = self.rewritten()?;
+        self.string.kinds = next.kinds;
+        self.string.parameters = next.parameters;
+        for part in &self.system.systems {
+            self.block(&part.blocks.end_each, "endEach:")?;
+        }
+        self.exchange()?;
+        self.remember();
         Ok(())
+    }
+
+    /// Ends the derivation: runs the end blocks of the file, and writes its files out.
+    pub fn finish(mut self) -> Derived<ModuleString> {
+        for part in &self.system.systems {
+            self.block(&part.blocks.end, "end:")?;
+        }
+        if let Err(message) = self.machine.output.finish() {
+            return Err(self.fault(message, "end:"));
+        }
+        Ok(self.string)
+    }
+
+    /// What the string looks like now: after the productions of the `homomorphism:` part.
+    pub fn appearance(&self) -> Derived<ModuleString> {
+        let mut show = Self::begin(
+            self.system,
+            DerivationOptions { seed: self.options.seed, ..Default::default() },
+        );
+        show.machine.recall(&self.machine.memory(self.step));
+        show.machine.functions = self.machine.functions.clone();
+        show.step = self.step;
+        Ok(show.shown(&self.string, None)?.0)
+    }
+
+    /// What becomes of the string in this step.
+    fn rewritten(&mut self) -> Derived<Made> {
+        let mut layers = Vec::new();
+        for system in &self.system.systems {
+            let set = self.table(system)?;
+            layers.push(Layer { system, set, decomposition: system.decomposition.as_ref() });
+        }
+        let groups = Groups::default();
+        let task = Task {
+            string: &self.string,
+            groups: &groups,
+            layers: &layers,
+            arities: &self.arities,
+            choice: self.choice(),
+            limits: self.options.limits,
+            deadline: self.deadline,
+            step: self.step,
+            tick: (self.step << 22) | REWRITING,
+            shows: false,
+            noted: None,
+            only: None,
+        };
+        let looked = self.operations + STEP_COST;
+        let (made, looked) = match self.system.systems[0].order {
+            Order::Parallel => {
+                parallel::rewrite(task, &mut self.machine, looked, self.options.threads)?
+            }
+            Order::Leftmost => {
+                let only = Task { only: Some(0), ..task };
+                parallel::one_after_the_other(only, &mut self.machine, looked)?
+            }
+            Order::Random => {
+                let count = Task { only: Some(u64::MAX - 1), ..task };
+                let (counted, looked) =
+                    parallel::one_after_the_other(count, &mut self.machine, looked)?;
+                let draw = self.machine.random.choice(usize::MAX, task.tick);
+                let only = Some((draw * counted.applied as f64) as u64);
+                let only = Task { only, ..task };
+                parallel::one_after_the_other(only, &mut self.machine, looked)?
+            }
+        };
+        self.operations = looked;
+        Ok(made)
+    }
+
+    /// The productions that are active in this step.
+    fn table(&mut self, system: &'a System) -> Derived<&'a ProductionSet> {
+        for (test, number) in &system.selections {
+            let selected = self.machine.run(test, &mut Vec::new());
+            self.examine("select:")?;
+            if selected != 0.0 && !selected.is_nan() {
+                return Ok(&system.tables[*number]);
+            }
+        }
+        Ok(&system.tables[0])
+    }
+
+    fn choice(&self) -> Choice {
+        let is_stochastic = self.system.systems[0].is_stochastic;
+        match (self.machine.random.is_reference(), is_stochastic) {
+            (true, true) => Choice::Reference,
+            (true, false) => Choice::First,
+            (false, true) if !self.system.is_own() => Choice::Weighted,
+            (false, _) => Choice::FirstOrWeighted,
+        }
+    }
+
+    /// What a string looks like; with the numbers of noted modules in that and in the string.
+    fn shown(
+        &mut self,
+        string: &ModuleString,
+        noted: Option<&[bool]>,
+    ) -> Derived<(ModuleString, Vec<(usize, usize)>)> {
+        let nothing = ProductionSet::new(Vec::new(), 1);
+        let systems = self.system.systems.iter();
+        let layers: Vec<Layer> = systems
+            .map(|system| Layer {
+                system,
+                set: &nothing,
+                decomposition: system.homomorphism.as_ref(),
+            })
+            .collect();
+        let groups = Groups::default();
+        let task = Task {
+            string,
+            groups: &groups,
+            layers: &layers,
+            arities: &self.arities,
+            choice: match self.choice() {
+                // What has no production draws no number here.
+                Choice::Reference => Choice::First,
+                other => other,
+            },
+            limits: self.options.limits,
+            deadline: self.deadline,
+            step: self.step,
+            tick: (self.step << 22) | APPEARANCE,
+            shows: true,
+            noted,
+            only: None,
+        };
+        let (made, looked) =
+            parallel::one_after_the_other(task, &mut self.machine, self.operations)?;
+        self.operations = looked;
+        let mut shown = ModuleString::new(self.system.alphabet.clone());
+        shown.kinds = made.kinds;
+        shown.parameters = made.parameters;
+        Ok((shown, made.notes))
+    }
+
+    fn block(&mut self, program: &Program, name: &str) -> Derived<()> {
+        if program.is_empty() {
+            return Ok(());
+        }
+        // Blocks draw numbers of their own.
+        self.machine.random.begin(u32::MAX as usize, self.step << 22, name.len() as u32);
+        self.machine.run(program, &mut Vec::new());
+        self.examine(name)
+    }
+
+    /// An error if a block has failed.
+    fn examine(&mut self, name: &str) -> Derived<()> {
+        match self.machine.fault.take() {
+            Some(fault) => Err(self.fault(fault.to_string(), name)),
+            None => Ok(()),
+        }
+    }
+
+    fn fault(&self, what: String, name: &str) -> DerivationError {
+        DerivationError::Fault {
+            place: self.system.axiom_place.clone(),
+            what,
+            step: self.step,
+            production: name.into(),
+        }
+    }
+
+    /// Keeps with the string what its homomorphism may depend on.
+    fn remember(&mut self) {
+        if self.system.systems.iter().any(|system| system.homomorphism.is_some()) {
+            self.string.memory = Some(Arc::new(self.machine.memory(self.step)));
+        }
     }
 }
 
@@ -178,7 +429,8 @@ fn without_cut_branches(string: &ModuleString) -> ModuleString {
         if depth_of_cut.is_some_and(|cut| depth < cut) {
             depth_of_cut = None;
         }
-        if kind == Alphabet::CUT && depth_of_cut.is_none() {
+        let is_cut = matches!(kind, Alphabet::CUT | Alphabet::REPORTED_CUT);
+        if is_cut && depth_of_cut.is_none() {
             depth_of_cut = Some(depth);
         }
         if depth_of_cut.is_none() {
@@ -188,280 +440,4 @@ fn without_cut_branches(string: &ModuleString) -> ModuleString {
         parameter += arity;
     }
     kept
-}
-
-/// Applies sets of productions to strings and counts what that costs.
-struct Rewriter<'a> {
-    system: &'a LSystem,
-    seed: u64,
-    limits: Limits,
-    bindings: Bindings,
-    operations: u64,
-    arities: Vec<u8>,
-}
-
-impl<'a> Rewriter<'a> {
-    fn new(system: &'a LSystem, seed: u64, limits: &Limits) -> Self {
-        let mut arities: Vec<u8> = system.alphabet.kinds().iter().map(|kind| kind.arity).collect();
-        arities.resize(256, 0);
-        let bindings = Bindings::new(seed, f64::from(system.derivation_length));
-        Self { system, seed, limits: *limits, bindings, operations: 0, arities }
-    }
-
-    /// Applies a set to its own results until nothing changes or its depth is reached.
-    fn repeat(
-        &mut self,
-        set: &ProductionSet,
-        mut string: ModuleString,
-        step: u64,
-        part: u64,
-    ) -> Derived<ModuleString> {
-        for depth in 0..u64::from(set.maximum_depth) {
-            let applies = |&kind: &u8| !matches!(set.actions[kind as usize], Action::Keep);
-            if !string.kinds.iter().any(applies) {
-                break;
-            }
-            string = self.rewrite(set, &string, step, part + depth)?;
-        }
-        Ok(string)
-    }
-
-    /// Replaces all modules of a string at once.
-    fn rewrite(
-        &mut self,
-        set: &ProductionSet,
-        string: &ModuleString,
-        step: u64,
-        part: u64,
-    ) -> Derived<ModuleString> {
-        let mut next = ModuleString::new(Arc::clone(&string.alphabet));
-        next.kinds.reserve(string.kinds.len());
-        next.parameters.reserve(string.parameters.len());
-        self.bindings.step = step as f64;
-        let looked = self.operations + string.kinds.len() as u64 + STEP_COST;
-        let mut pass = Pass {
-            set,
-            matcher: Matcher {
-                string,
-                skipped: &self.system.skipped,
-                arities: &self.arities,
-                looked,
-            },
-            bindings: &mut self.bindings,
-            next,
-            place: context::Place { module: 0, parameter: 0 },
-            limits: self.limits,
-            seed: self.seed,
-            step,
-            tick: (step << 22) | part,
-            made: vec![0; set.productions.len()],
-            candidates: Vec::new(),
-        };
-        pass.check()?;
-        while pass.place.module < string.kinds.len() {
-            pass.module()?;
-        }
-        self.operations = pass.matcher.looked;
-        Ok(pass.next)
-    }
-}
-
-fn append(successor: &Successor, string: &mut ModuleString, bindings: &mut Bindings) {
-    string.kinds.extend_from_slice(&successor.kinds);
-    for argument in &successor.arguments {
-        string.parameters.push(argument.evaluate(bindings) as f32);
-    }
-}
-
-/// What a step costs at least, in operations.
-const STEP_COST: u64 = 256;
-
-/// One set applied to one string.
-struct Pass<'a> {
-    set: &'a ProductionSet,
-    matcher: Matcher<'a>,
-    bindings: &'a mut Bindings,
-    next: ModuleString,
-    place: context::Place,
-    limits: Limits,
-    seed: u64,
-    step: u64,
-    tick: u64,
-    /// How many modules each production has made.
-    made: Vec<u64>,
-    /// Productions that apply to the present module, with their probabilities.
-    candidates: Vec<(u32, f64)>,
-}
-
-impl Pass<'_> {
-    /// Appends what becomes of the next module.
-    #[inline]
-    fn module(&mut self) -> Derived<()> {
-        let set = self.set;
-        let kind = self.matcher.string.kinds[self.place.module];
-        match &set.actions[kind as usize] {
-            Action::Keep => {
-                self.keep(kind);
-                Ok(())
-            }
-            Action::Replace(number) => {
-                let successor = &set.productions[*number as usize].successor;
-                self.next.kinds.extend_from_slice(&successor.kinds);
-                self.made[*number as usize] += successor.kinds.len() as u64;
-                self.place.module += 1;
-                self.place.parameter += self.matcher.arities[kind as usize] as usize;
-                self.check()
-            }
-            Action::Try(numbers) => match self.choose(numbers)? {
-                Some(number) => self.apply(number),
-                None => {
-                    self.keep(kind);
-                    Ok(())
-                }
-            },
-        }
-    }
-
-    #[inline]
-    fn keep(&mut self, kind: u8) {
-        self.next.kinds.push(kind);
-        let end = self.place.parameter + self.matcher.arities[kind as usize] as usize;
-        let parameters = &self.matcher.string.parameters[self.place.parameter..end];
-        self.next.parameters.extend_from_slice(parameters);
-        self.place.module += 1;
-        self.place.parameter = end;
-    }
-
-    /// The production to apply among those of these numbers, its parameters bound.
-    fn choose(&mut self, numbers: &[u32]) -> Derived<Option<u32>> {
-        self.candidates.clear();
-        for &number in numbers {
-            if !self.applies(number)? {
-                continue;
-            }
-            let probability = match &self.set.productions[number as usize].probability {
-                None if self.candidates.is_empty() => return Ok(Some(number)),
-                None => 1.0,
-                Some(expression) => expression.evaluate(self.bindings).max(0.0),
-            };
-            self.examine(number)?;
-            self.candidates.push((number, probability));
-        }
-        let Some(number) = self.draw() else { return Ok(None) };
-        // Bind its parameters again: those of later candidates are in their place.
-        self.applies(number)?;
-        Ok(Some(number))
-    }
-
-    /// Draws one of the candidates; none if their probabilities are all zero.
-    fn draw(&self) -> Option<u32> {
-        let total: f64 = self.candidates.iter().map(|(_, probability)| probability).sum();
-        if total.is_nan() || total <= 0.0 {
-            return None;
-        }
-        let module = self.place.module as u32;
-        let mut random = Random::new(self.seed, module, self.tick, CHOICE);
-        let mut rest = f64::from(random.uniform()) * total;
-        let mut last = None;
-        for &(number, probability) in &self.candidates {
-            if probability > 0.0 {
-                last = Some(number);
-                if rest < probability {
-                    break;
-                }
-                rest -= probability;
-            }
-        }
-        last
-    }
-
-    /// Whether a production applies to the present module; binds its parameters.
-    fn applies(&mut self, number: u32) -> Derived<bool> {
-        let production = &self.set.productions[number as usize];
-        self.matcher.looked += production.cost;
-        let place = self.place;
-        if !self.matcher.follows(&production.strict, place, self.bindings)
-            || !self.matcher.precedes(&production.left, place, self.bindings)
-            || !self.matcher.succeeds(&production.right, self.after(production), self.bindings)
-        {
-            self.check()?;
-            return Ok(false);
-        }
-        self.bindings.begin(place.module, self.tick, number);
-        run(&production.before, self.bindings);
-        let condition = production.condition.as_ref();
-        let applies = condition.is_none_or(|condition| is_true(condition.evaluate(self.bindings)));
-        if applies {
-            run(&production.after, self.bindings);
-        }
-        self.examine(number)?;
-        self.check()?;
-        Ok(applies)
-    }
-
-    /// The place after the modules that a production replaces.
-    fn after(&self, production: &Production) -> context::Place {
-        let arity: usize = production.strict.iter().map(|pattern| pattern.arity as usize).sum();
-        context::Place {
-            module: self.place.module + production.strict.len(),
-            parameter: self.place.parameter + arity,
-        }
-    }
-
-    /// Appends the successor of a production whose parameters are bound.
-    fn apply(&mut self, number: u32) -> Derived<()> {
-        let production = &self.set.productions[number as usize];
-        append(&production.successor, &mut self.next, self.bindings);
-        self.made[number as usize] += production.successor.kinds.len() as u64;
-        self.place = self.after(production);
-        self.examine(number)?;
-        self.check()
-    }
-
-    /// An error if the last evaluation of a production failed.
-    #[inline]
-    fn examine(&mut self, number: u32) -> Derived<()> {
-        let Some(fault) = self.bindings.fault.take() else { return Ok(()) };
-        let production = &self.set.productions[number as usize];
-        Err(DerivationError::Fault {
-            place: production.place.clone(),
-            what: fault.to_string(),
-            step: self.step,
-            production: production.text.clone(),
-        })
-    }
-
-    /// An error if a limit is exceeded.
-    #[inline]
-    fn check(&self) -> Derived<()> {
-        let modules = self.next.kinds.len();
-        let bytes = modules + size_of::<f32>() * self.next.parameters.len();
-        if modules <= self.limits.modules
-            && bytes <= self.limits.bytes
-            && self.matcher.looked <= self.limits.operations
-        {
-            return Ok(());
-        }
-        Err(self.exceeded(modules, bytes))
-    }
-
-    #[cold]
-    fn exceeded(&self, modules: usize, bytes: usize) -> DerivationError {
-        let Limits { modules: most, bytes: most_bytes, operations } = self.limits;
-        let what = if modules > most {
-            format!("more than {most} modules")
-        } else if bytes > most_bytes {
-            format!("more than {most_bytes} bytes of modules and parameters")
-        } else {
-            format!("more than {operations} operations")
-        };
-        let largest = (0..self.made.len()).rev().max_by_key(|&number| self.made[number]);
-        let production = &self.set.productions[largest.unwrap_or(0)];
-        DerivationError::Limit {
-            place: production.place.clone(),
-            what,
-            step: self.step,
-            production: production.text.clone(),
-        }
-    }
 }

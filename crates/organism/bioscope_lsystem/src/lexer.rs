@@ -1,7 +1,7 @@
 //! Tokens. The same letters mean different things in a string of modules (`F-F` are three
 //! modules) and in an expression (a difference), so the parser says which it expects next.
 
-use std::ops::Range;
+use std::{ops::Range, rc::Rc};
 
 use logos::Logos;
 
@@ -9,7 +9,7 @@ use logos::Logos;
 #[derive(Logos, Clone, Copy, Debug, PartialEq)]
 #[logos(skip r"[ \t\r\n\f]+")]
 pub(crate) enum Word {
-    #[regex(r"[A-Za-z0-9+\-&^\\/|!'#;,.\[\]{}%$_]")]
+    #[regex(r"[A-Za-z0-9+\-&^\\/|!'#;,.\[\]{}%$_?=]")]
     #[regex(r"@([A-Za-z!#;,]|PS|PC|PD|G[secrt]|Tx|T[sdpf]|D[id]|b[oc])")]
     #[regex(r"[~?][A-Za-z]")]
     Symbol,
@@ -40,7 +40,7 @@ pub(crate) enum Term {
     Number,
     #[regex(r"[A-Za-z_][A-Za-z0-9_]*")]
     Name,
-    #[regex(r#""[^"\n]*""#)]
+    #[regex(r#""([^"\\\n]|\\[^\n])*""#)]
     Text,
     #[token("+")]
     Plus,
@@ -83,6 +83,10 @@ pub(crate) enum Term {
     Close,
     #[token("[")]
     OpenIndex,
+    #[token("]")]
+    CloseIndex,
+    #[token("&")]
+    Address,
     #[token("{")]
     OpenBlock,
     #[token("}")]
@@ -94,6 +98,7 @@ pub(crate) enum Term {
     #[token("=")]
     Assign,
     #[token("-->")]
+    #[token("-o>")]
     Arrow,
     End,
     Unknown,
@@ -106,11 +111,18 @@ pub(crate) struct Cursor<'a> {
     /// Next byte to be read.
     pub position: usize,
     end: usize,
+    /// Declared names of modules, longest first.
+    modules: Rc<[String]>,
 }
 
 impl<'a> Cursor<'a> {
     pub fn new(text: &'a str, span: Range<usize>) -> Self {
-        Self { text, position: span.start, end: span.end }
+        Self { text, position: span.start, end: span.end, modules: Rc::new([]) }
+    }
+
+    /// One that knows modules of several letters.
+    pub fn with_modules(self, modules: Rc<[String]>) -> Self {
+        Self { modules, ..self }
     }
 
     /// The text of these bytes.
@@ -125,8 +137,19 @@ impl<'a> Cursor<'a> {
 
     /// The next token as part of a string of modules, without reading past it.
     pub fn peek_word(&self) -> (Word, Range<usize>) {
+        if let Some(span) = self.declared_module() {
+            return (Word::Symbol, span);
+        }
         let (token, span) = self.peek(Word::End);
         (token.unwrap_or(Word::Unknown), span)
+    }
+
+    fn declared_module(&self) -> Option<Range<usize>> {
+        let rest = self.rest();
+        let text = rest.trim_start();
+        let name = self.modules.iter().find(|name| text.starts_with(name.as_str()))?;
+        let start = self.position + rest.len() - text.len();
+        Some(start..start + name.len())
     }
 
     /// The next token as part of an expression, without reading past it.

@@ -2,7 +2,7 @@ use std::{collections::BTreeMap, sync::Arc};
 
 use crate::{
     Diagnostic, Place,
-    expression::{Expression, Instruction},
+    machine::{Pool, Program, Rules},
 };
 
 /// What a module is: its symbol and how many parameters it has. Modules of the same symbol with
@@ -28,8 +28,14 @@ impl Alphabet {
     pub const OPEN: u8 = 0;
     /// Code of `]`.
     pub const CLOSE: u8 = 1;
-    /// Code of `%`.
+    /// Code of `%` without parameter.
     pub const CUT: u8 = 2;
+    /// Code of `%` with a parameter.
+    pub const REPORTED_CUT: u8 = 3;
+    /// Code of `$`, which ends a sub-L-system.
+    pub const END: u8 = 4;
+    /// Code of `=` in a right context: whatever follows in this branch.
+    pub(crate) const REST: u8 = 5;
 
     /// The kinds, in the order of their codes.
     pub fn kinds(&self) -> &[ModuleKind] {
@@ -57,8 +63,8 @@ impl Alphabet {
 impl Default for Alphabet {
     fn default() -> Self {
         let mut alphabet = Self { kinds: Vec::new(), codes: BTreeMap::new() };
-        for symbol in ["[", "]", "%"] {
-            alphabet.intern(symbol, 0);
+        for (symbol, arity) in [("[", 0), ("]", 0), ("%", 0), ("%", 1), ("$", 0), ("=", 0)] {
+            alphabet.intern(symbol, arity);
         }
         alphabet
     }
@@ -72,12 +78,17 @@ pub(crate) struct Pattern {
     pub slot: u8,
 }
 
-/// The modules that a production (or the axiom) makes, with the expressions of all their
-/// parameters in order.
+impl Pattern {
+    pub fn is_bracket(&self) -> bool {
+        matches!(self.kind, Alphabet::OPEN | Alphabet::CLOSE)
+    }
+}
+
+/// The modules that a production (or the axiom) makes; its program emits all their parameters.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Successor {
     pub kinds: Vec<u8>,
-    pub arguments: Vec<Expression>,
+    pub program: Program,
 }
 
 /// `left < strict > right : {before} condition {after} --> successor : probability`
@@ -86,11 +97,13 @@ pub(crate) struct Production {
     pub left: Vec<Pattern>,
     pub strict: Vec<Pattern>,
     pub right: Vec<Pattern>,
-    pub before: Vec<Instruction>,
-    pub condition: Option<Expression>,
-    pub after: Vec<Instruction>,
+    /// Computes `before` and the condition; empty if it applies always.
+    pub test: Program,
+    pub probability: Option<Program>,
+    /// Computes `after` and the parameters.
     pub successor: Successor,
-    pub probability: Option<Expression>,
+    /// How many parameters and local variables it has.
+    pub slots: usize,
     pub place: Place,
     pub text: String,
     /// Instructions that one attempt to apply it runs at most.
@@ -103,10 +116,13 @@ impl Production {
         self.left.is_empty()
             && self.strict.len() == 1
             && self.right.is_empty()
-            && self.before.is_empty()
-            && self.condition.is_none()
+            && self.test.is_empty()
             && self.probability.is_none()
-            && self.successor.arguments.is_empty()
+            && self.successor.program.is_empty()
+    }
+
+    fn programs(&self) -> impl Iterator<Item = &Program> {
+        [&self.test, &self.successor.program].into_iter().chain(&self.probability)
     }
 }
 
@@ -129,6 +145,12 @@ pub(crate) struct ProductionSet {
     pub actions: Vec<Action>,
     /// How often it is applied to its own results (decomposition, homomorphism).
     pub maximum_depth: u32,
+    /// Whether modules must be treated one after the other.
+    pub has_effects: bool,
+    /// Whether random numbers are drawn, other than to choose a production.
+    pub is_random: bool,
+    /// Most modules that a production replaces at once.
+    pub longest: usize,
 }
 
 impl ProductionSet {
@@ -145,23 +167,90 @@ impl ProductionSet {
             _ => Action::Try(numbers.into()),
         };
         let actions = tried.into_iter().map(action).collect();
-        Self { productions, actions, maximum_depth }
+        let programs = || productions.iter().flat_map(Production::programs);
+        let (has_effects, is_random) =
+            (programs().any(Program::has_effects), programs().any(Program::is_random));
+        Self {
+            has_effects,
+            is_random,
+            longest: productions.iter().map(|one| one.strict.len()).max().unwrap_or(1),
+            actions,
+            maximum_depth,
+            productions,
+        }
     }
+}
+
+/// How the successors of a module are found in its right context.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) enum RightContext {
+    /// As in the reference program: branches are passed over unless the context names a bracket,
+    /// and brackets must match to the letter.
+    #[default]
+    Reference,
+    /// On the same axis; only the beginning of a bracketed group must match.
+    Axis,
+    /// Also in the branches that are passed over.
+    Tree,
+}
+
+/// Which modules of a string are rewritten in a step.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) enum Order {
+    /// All at once.
+    #[default]
+    Parallel,
+    /// The leftmost to which a production applies.
+    Leftmost,
+    /// One of those to which a production applies.
+    Random,
+}
+
+/// Statements that are run before, between and after steps.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Blocks {
+    pub start: Program,
+    pub start_each: Program,
+    pub end_each: Program,
+    pub end: Program,
+}
+
+/// One L-system of a file; those after the first serve as sub-L-systems.
+#[derive(Clone, Debug)]
+pub(crate) struct System {
+    /// What `?(label, scale)` calls it.
+    pub label: i64,
+    /// One set of productions per table, at least one.
+    pub tables: Vec<ProductionSet>,
+    /// Conditions that select a table for a step.
+    pub selections: Vec<(Program, usize)>,
+    pub decomposition: Option<ProductionSet>,
+    pub homomorphism: Option<ProductionSet>,
+    /// Seed of the homomorphism's own random numbers.
+    pub homomorphism_seed: Option<i64>,
+    /// By kind: whether context matching looks past it.
+    pub skipped: Vec<bool>,
+    pub right_context: RightContext,
+    /// Whether the string has no ends.
+    pub is_ring: bool,
+    /// Whether the file says that productions are chosen by chance (`seed:`).
+    pub is_stochastic: bool,
+    pub order: Order,
+    pub blocks: Blocks,
 }
 
 /// A parsed L-system, ready to derive strings.
 #[derive(Clone, Debug)]
 pub struct LSystem {
     pub(crate) alphabet: Arc<Alphabet>,
+    pub(crate) pool: Arc<Pool>,
     pub(crate) axiom: Successor,
     pub(crate) axiom_place: Place,
-    pub(crate) rewriting: ProductionSet,
-    pub(crate) decomposition: Option<ProductionSet>,
-    pub(crate) homomorphism: Option<ProductionSet>,
-    /// By kind: whether context matching looks past it.
-    pub(crate) skipped: Vec<bool>,
+    /// The main L-system, then the others.
+    pub(crate) systems: Vec<System>,
     pub(crate) derivation_length: u32,
     pub(crate) angle: Option<f32>,
+    pub(crate) environment: Option<String>,
     pub(crate) constants: Vec<(String, f64)>,
     pub(crate) warnings: Vec<Diagnostic>,
 }
@@ -182,6 +271,11 @@ impl LSystem {
         self.angle
     }
 
+    /// Name and parameters of the environment that the file asks for (`environment:`).
+    pub fn environment(&self) -> Option<&str> {
+        self.environment.as_deref()
+    }
+
     /// The file's `#define`d numbers, by name in alphabetical order.
     pub fn constants(&self) -> &[(String, f64)] {
         &self.constants
@@ -191,6 +285,17 @@ impl LSystem {
     pub fn constant(&self, name: &str) -> Option<f64> {
         let index = self.constants.binary_search_by(|(known, _)| known.as_str().cmp(name)).ok()?;
         Some(self.constants[index].1)
+    }
+
+    /// The texts of the file; where one is a parameter, as in `@L("bud %g", 3)`, the string holds
+    /// its number.
+    pub fn texts(&self) -> &[String] {
+        &self.pool.texts
+    }
+
+    /// Whether the file is in the notation of our own rather than in the cpfg dialect.
+    pub(crate) fn is_own(&self) -> bool {
+        self.pool.rules == Rules::Own
     }
 
     /// What is doubtful in the file but not wrong, such as names that stand for nothing.

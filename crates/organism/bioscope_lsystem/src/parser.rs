@@ -4,23 +4,31 @@
 //! statement, so that one reading reports all of them. The parser is a plain recursive descent:
 //! it steers the two languages of the lexer, bounds every depth, and always knows what it expects.
 
+mod block;
 mod expression;
+mod functions;
+mod lint;
+mod names;
 mod production;
+mod reading;
+mod sections;
 mod statements;
+mod systems;
 
-use std::{collections::BTreeSet, ops::Range, path::Path};
+use std::{collections::BTreeSet, ops::Range, rc::Rc};
 
 use crate::{
     Alphabet, Diagnostic, Diagnostics, LSystem,
     diagnostic::suggestion,
-    expression::{Bindings, Expression},
-    lexer::{Cursor, Term, Word},
-    model::{Production, ProductionSet, Successor},
-    preprocessor::preprocess,
+    lexer::{Cursor, Term},
+    machine::Rules,
+    model::Successor,
     source::Source,
 };
-use expression::ExpressionParser;
+use expression::Compiler;
+use names::{Names, Scope};
 use statements::{SECTIONS, Section, Statement, statements};
+use systems::Draft;
 
 /// How many errors and how many warnings are kept.
 const REPORT_LIMIT: usize = 50;
@@ -51,41 +59,21 @@ impl SyntaxError {
 
 type Parsed<T> = Result<T, SyntaxError>;
 
-impl LSystem {
-    /// Reads an L-system from a file.
-    pub fn read(path: impl AsRef<Path>) -> bioscope_core::Result<Self> {
-        let path = path.as_ref();
-        let name = path.display().to_string();
-        let bytes = std::fs::read(path)
-            .map_err(|error| bioscope_core::Error::format(&name, error.to_string()))?;
-        let text = String::from_utf8(bytes).map_err(|error| {
-            let line = error.as_bytes()[..error.utf8_error().valid_up_to()]
-                .iter()
-                .filter(|&&byte| byte == b'\n')
-                .count();
-            bioscope_core::Error::format(format!("{name}:{}", line + 1), "not UTF-8 text")
-        })?;
-        Ok(Self::parse(&text, &name)?)
-    }
-
-    /// Reads an L-system from text; `file_name` is what reports call it.
-    ///
-    /// ```
-    /// use bioscope_lsystem::LSystem;
-    /// let text = "lsystem: 1\nderivation length: 2\naxiom: A(1)\nA(x) --> A(x+1)A(x/2)\nendlsystem\n";
-    /// let string = LSystem::parse(text, "pairs.l")?.derive(2, 0)?;
-    /// assert_eq!(string.to_string(), "A(3)A(1)A(1.5)A(0.25)");
-    /// # Ok::<(), bioscope_core::Error>(())
-    /// ```
-    pub fn parse(source: &str, file_name: &str) -> Result<Self, Diagnostics> {
-        let (source, constants, reports) = preprocess(source.to_string(), file_name);
-        let mut parser = Parser::new(&source, reports);
-        parser.constants(&constants);
-        for statement in statements(&source.expanded) {
-            parser.statement(&statement);
-        }
-        parser.finish()
-    }
+/// The value of a constant expression that fills the cursor's text; unknown names count as zero.
+pub(crate) fn constant_value(cursor: &mut Cursor) -> Option<f64> {
+    let (mut names, mut scope, mut unknown) = (Names::default(), Scope::new(), Vec::new());
+    let mut compiler = Compiler {
+        cursor,
+        names: &mut names,
+        scope: &mut scope,
+        in_control_block: false,
+        unknown: &mut unknown,
+        code: Vec::new(),
+        temporaries: 0,
+        nesting: 0,
+    };
+    let value = compiler.constant().ok()?;
+    (cursor.peek_term().0 == Term::End).then_some(value)
 }
 
 /// Which set of productions a statement adds to.
@@ -98,12 +86,6 @@ enum Part {
     Over,
 }
 
-#[derive(Default)]
-struct Productions {
-    list: Vec<Production>,
-    depth: Option<u32>,
-}
-
 struct Parser<'s> {
     source: &'s Source,
     errors: Vec<Diagnostic>,
@@ -111,17 +93,23 @@ struct Parser<'s> {
     warnings: Vec<Diagnostic>,
     alphabet: Alphabet,
     part: Part,
-    sets: [Productions; 3],
+    names: Names,
+    /// Declared modules, longest names first, and what their parameters are called.
+    modules: Rc<[String]>,
+    declared: Vec<(String, Vec<String>)>,
+    /// The L-systems so far; the last one is being read.
+    drafts: Vec<Draft>,
     axiom: Option<(Successor, usize)>,
     derivation_length: u32,
     angle: Option<f32>,
+    environment: Option<String>,
     constants: Vec<(String, f64)>,
-    ignored: Option<BTreeSet<String>>,
-    considered: Option<BTreeSet<String>>,
 }
 
 impl<'s> Parser<'s> {
-    fn new(source: &'s Source, errors: Vec<Diagnostic>) -> Self {
+    fn new(source: &'s Source, rules: Rules, errors: Vec<Diagnostic>) -> Self {
+        let mut names = Names::default();
+        names.pool.rules = rules;
         Self {
             source,
             errors,
@@ -129,23 +117,38 @@ impl<'s> Parser<'s> {
             warnings: Vec::new(),
             alphabet: Alphabet::default(),
             part: Part::Rewriting,
-            sets: Default::default(),
+            names,
+            modules: Rc::new([]),
+            declared: Vec::new(),
+            drafts: vec![Draft::new(rules)],
             axiom: None,
             derivation_length: 0,
             angle: None,
+            environment: None,
             constants: Vec::new(),
-            ignored: None,
-            considered: None,
         }
+    }
+
+    fn is_own(&self) -> bool {
+        self.names.pool.rules == Rules::Own
     }
 
     /// Keeps those `#define`s whose text is a number.
     fn constants(&mut self, texts: &[(String, String)]) {
         for (name, text) in texts {
             let mut cursor = Cursor::new(text, 0..text.len());
-            let (scope, mut unknown) = (Vec::new(), Vec::new());
-            let parsed = ExpressionParser::new(&mut cursor, &scope, &mut unknown).parse();
-            if let Ok(Expression::Constant(value)) = parsed
+            let (mut scope, mut unknown) = (Scope::new(), Vec::new());
+            let mut compiler = Compiler {
+                cursor: &mut cursor,
+                names: &mut self.names,
+                scope: &mut scope,
+                in_control_block: false,
+                unknown: &mut unknown,
+                code: Vec::new(),
+                temporaries: 0,
+                nesting: 0,
+            };
+            if let Ok(value) = compiler.constant()
                 && unknown.is_empty()
                 && cursor.peek_term().0 == Term::End
             {
@@ -155,10 +158,10 @@ impl<'s> Parser<'s> {
     }
 
     fn statement(&mut self, statement: &Statement) {
-        let mut cursor = Cursor::new(&self.source.expanded, statement.content.clone());
-        if self.part == Part::Over {
-            let span = statement.head.start..statement.content.end;
-            return self.error(SyntaxError::new(span, "not supported: a second L-system"));
+        let cursor = Cursor::new(&self.source.expanded, statement.content.clone());
+        let mut cursor = cursor.with_modules(self.modules.clone());
+        if self.part == Part::Over && !self.begin_system(statement) {
+            return;
         }
         let parsed = match &statement.section {
             Some(section) => self.section(*section, statement, &mut cursor),
@@ -170,106 +173,41 @@ impl<'s> Parser<'s> {
         self.report_unknown_names();
     }
 
-    fn section(
-        &mut self,
-        section: Section,
-        statement: &Statement,
-        cursor: &mut Cursor,
-    ) -> Parsed<()> {
-        match section {
-            Section::Label | Section::Seed => Ok(()),
-            Section::Axiom => self.axiom(cursor),
-            Section::DerivationLength => {
-                self.derivation_length = self.count(cursor, "a number of steps")?;
-                Ok(())
-            }
-            Section::Angle => {
-                let value = self.number(cursor)?;
-                self.angle = Some(value as f32);
-                Ok(())
-            }
-            Section::Ignore => {
-                self.ignored = Some(self.symbols(cursor)?);
-                Ok(())
-            }
-            Section::Consider => {
-                self.considered = Some(self.symbols(cursor)?);
-                Ok(())
-            }
-            Section::Decomposition => self.begin(Part::Decomposition),
-            Section::Homomorphism => self.begin(Part::Homomorphism),
-            Section::MaximumDepth => {
-                let depth = self.count(cursor, "a depth")?;
-                self.sets[self.part as usize].depth = Some(depth);
-                Ok(())
-            }
-            Section::End => self.begin(Part::Over),
-            Section::Unsupported(name) => {
-                Err(SyntaxError::new(statement.head.clone(), format!("not supported: {name}")))
-            }
-            Section::Unknown => {
-                let head = self.source.expanded[statement.head.clone()].trim();
-                let message = format!("unknown section '{head}:'; a production needs '-->'");
-                let mut error = SyntaxError::new(statement.head.clone(), message);
-                let known = suggestion(head, SECTIONS.iter().map(|(name, _)| *name));
-                error.help = known.map(|name| format!("did you mean '{name}:'?"));
-                Err(error)
-            }
+    /// After `endlsystem`, only another L-system may follow.
+    fn begin_system(&mut self, statement: &Statement) -> bool {
+        if statement.section != Some(Section::Label) {
+            let span = statement.head.start..statement.content.end;
+            let message = "expected 'lsystem:' after 'endlsystem'";
+            self.error(SyntaxError::new(span, message));
+            // One report is enough for everything that follows.
+            self.part = Part::Rewriting;
+            return false;
         }
+        self.drafts.push(Draft::new(self.names.pool.rules));
+        self.names.system = self.drafts.len() - 1;
+        self.part = Part::Rewriting;
+        true
     }
 
-    fn begin(&mut self, part: Part) -> Parsed<()> {
-        self.part = part;
-        Ok(())
+    fn draft(&mut self) -> &mut Draft {
+        let last = self.drafts.len() - 1;
+        &mut self.drafts[last]
     }
 
-    fn axiom(&mut self, cursor: &mut Cursor) -> Parsed<()> {
-        let start = cursor.peek_word().1.start;
-        let axiom = self.successor(cursor, &Vec::new())?;
-        let (token, span) = cursor.peek_word();
-        if token != Word::End {
-            return Err(SyntaxError::unexpected(cursor, span, "a module"));
-        }
-        if self.axiom.replace((axiom, start)).is_some() {
-            return Err(SyntaxError::new(start..start + 1, "a second axiom"));
-        }
-        Ok(())
-    }
-
-    /// A constant expression.
-    fn number(&mut self, cursor: &mut Cursor) -> Parsed<f64> {
-        let scope = Vec::new();
-        let expression = ExpressionParser::new(cursor, &scope, &mut self.unknown).parse()?;
-        let (token, span) = cursor.peek_term();
-        if token != Term::End {
-            return Err(SyntaxError::unexpected(cursor, span, "the end of the line"));
-        }
-        Ok(expression.evaluate(&mut Bindings::new(0, 0.0)))
-    }
-
-    /// A whole number from 0 to a thousand million.
-    fn count(&mut self, cursor: &mut Cursor, what: &str) -> Parsed<u32> {
-        let span = cursor.peek_term().1;
-        let value = self.number(cursor)?;
-        if (0.0..=1e9).contains(&value) {
-            return Ok(value as u32);
-        }
-        let message = format!("expected {what} from 0 to 1000000000, found {value}");
-        Err(SyntaxError::new(span, message))
-    }
-
-    fn symbols(&mut self, cursor: &mut Cursor) -> Parsed<BTreeSet<String>> {
-        let mut symbols = BTreeSet::new();
-        loop {
-            let (token, span) = cursor.peek_word();
-            match token {
-                Word::End => return Ok(symbols),
-                Word::Symbol => symbols.insert(cursor.slice(span.clone()).to_string()),
-                // The comparison signs and the star are symbols here.
-                Word::Less | Word::Greater | Word::Star => true,
-                _ => return Err(SyntaxError::unexpected(cursor, span, "a symbol")),
-            };
-            cursor.position = span.end;
+    fn compiler<'p, 'a>(
+        &'p mut self,
+        cursor: &'p mut Cursor<'a>,
+        scope: &'p mut Scope,
+    ) -> Compiler<'p, 'a> {
+        Compiler {
+            cursor,
+            names: &mut self.names,
+            scope,
+            in_control_block: false,
+            unknown: &mut self.unknown,
+            code: Vec::new(),
+            temporaries: 0,
+            nesting: 0,
         }
     }
 
@@ -279,18 +217,21 @@ impl<'s> Parser<'s> {
         }
     }
 
+    fn warn(&mut self, warning: SyntaxError) {
+        if self.warnings.len() < REPORT_LIMIT {
+            self.warnings.push(self.diagnostic(warning));
+        }
+    }
+
     fn report_unknown_names(&mut self) {
         for mut warning in std::mem::take(&mut self.unknown) {
-            if self.warnings.len() >= REPORT_LIMIT {
-                return;
-            }
             if warning.help.is_none() {
                 let name = &self.source.expanded[warning.span.clone()];
                 let known = self.constants.iter().map(|(known, _)| known.as_str());
                 let known = suggestion(name, known);
                 warning.help = known.map(|known| format!("did you mean '{known}'?"));
             }
-            self.warnings.push(self.diagnostic(warning));
+            self.warn(warning);
         }
     }
 
@@ -307,46 +248,51 @@ impl<'s> Parser<'s> {
         if self.errors.is_empty() && self.axiom.is_none() {
             self.error(SyntaxError::new(end..end, "expected 'axiom:' before the end of the file"));
         }
-        let [rewriting, decomposition, homomorphism] = std::mem::take(&mut self.sets);
-        if self.errors.is_empty() && rewriting.list.is_empty() {
+        if self.errors.is_empty() && self.drafts[0].has_no_productions() {
             self.error(SyntaxError::new(end..end, "expected at least one production"));
         }
+        self.lint();
         let (Some((axiom, start)), []) = (self.axiom.take(), &self.errors[..]) else {
             self.errors.sort_by_key(|error| (error.place.line, error.place.column));
             return Err(Diagnostics(self.errors));
         };
-        let optional = |set: Productions| {
-            let depth = set.depth.unwrap_or(1);
-            (!set.list.is_empty()).then(|| ProductionSet::new(set.list, depth))
-        };
-        let skipped = self.skipped();
+        let alphabet = &self.alphabet;
         Ok(LSystem {
             axiom,
             axiom_place: self.source.place(start),
-            rewriting: ProductionSet::new(rewriting.list, 1),
-            decomposition: optional(decomposition),
-            homomorphism: optional(homomorphism),
-            skipped,
+            systems: self.drafts.into_iter().map(|draft| draft.finish(alphabet)).collect(),
+            pool: self.names.pool.into(),
             derivation_length: self.derivation_length,
             angle: self.angle,
+            environment: self.environment,
             constants: self.constants,
             warnings: self.warnings,
             alphabet: self.alphabet.into(),
         })
     }
+}
 
-    fn skipped(&self) -> Vec<bool> {
-        let is_skipped = |symbol: &str| {
-            let bracket = symbol == "[" || symbol == "]";
-            let listed =
-                |set: &Option<BTreeSet<String>>| set.as_ref().map(|set| set.contains(symbol));
-            let outside = listed(&self.considered).is_some_and(|listed| !listed);
-            !bracket && (outside || listed(&self.ignored).unwrap_or(false))
-        };
-        let mut skipped = vec![false; 256];
-        for (code, kind) in self.alphabet.kinds().iter().enumerate() {
-            skipped[code] = is_skipped(&kind.symbol);
+/// What a list of symbols says, in either notation.
+#[derive(Clone, Debug)]
+enum Listed {
+    /// Whole symbols.
+    Symbols(BTreeSet<String>),
+    /// Single letters, as the reference program sees them: `@o` is listed if `@` and `o` are.
+    Letters(BTreeSet<char>),
+}
+
+impl Listed {
+    fn contains(&self, symbol: &str) -> bool {
+        match self {
+            Self::Symbols(symbols) => symbols.contains(symbol),
+            Self::Letters(letters) => symbol.chars().all(|letter| letters.contains(&letter)),
         }
-        skipped
+    }
+
+    fn contains_part_of(&self, symbol: &str) -> bool {
+        match self {
+            Self::Symbols(symbols) => symbols.contains(symbol),
+            Self::Letters(letters) => symbol.chars().any(|letter| letters.contains(&letter)),
+        }
     }
 }

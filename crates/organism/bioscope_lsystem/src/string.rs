@@ -1,6 +1,6 @@
 use std::{fmt, sync::Arc};
 
-use crate::{Alphabet, ModuleKind};
+use crate::{Alphabet, ModuleKind, machine::Memory};
 
 /// A string of modules: a byte per module that says its kind, and all parameters in one array.
 #[derive(Clone, Debug)]
@@ -8,11 +8,13 @@ pub struct ModuleString {
     pub(crate) alphabet: Arc<Alphabet>,
     pub(crate) kinds: Vec<u8>,
     pub(crate) parameters: Vec<f32>,
+    /// Variables of the model, if what the string looks like may depend on them.
+    pub(crate) memory: Option<Arc<Memory>>,
 }
 
 impl ModuleString {
     pub(crate) fn new(alphabet: Arc<Alphabet>) -> Self {
-        Self { alphabet, kinds: Vec::new(), parameters: Vec::new() }
+        Self { alphabet, kinds: Vec::new(), parameters: Vec::new(), memory: None }
     }
 
     /// Number of modules.
@@ -71,23 +73,34 @@ impl fmt::Display for ModuleString {
 
 /// Writes a number as C's `%.9g` does.
 fn write_number(f: &mut fmt::Formatter<'_>, number: f32) -> fmt::Result {
-    const DIGITS: i32 = 9;
-    let number = f64::from(number);
+    // Most parameters are small whole numbers.
+    if number.abs() < 1e6
+        && number.trunc() == number
+        && (number != 0.0 || number.is_sign_positive())
+    {
+        return write!(f, "{}", number as i32);
+    }
+    f.write_str(&general(f64::from(number), 9))
+}
+
+/// A number as C's `%.{digits}g` writes it.
+pub(crate) fn general(number: f64, digits: usize) -> String {
     if number.is_nan() {
-        return f.write_str(if number.is_sign_negative() { "-nan" } else { "nan" });
+        return if number.is_sign_negative() { "-nan" } else { "nan" }.into();
     }
     if number.is_infinite() {
-        return f.write_str(if number > 0.0 { "inf" } else { "-inf" });
+        return if number > 0.0 { "inf" } else { "-inf" }.into();
     }
-    let scientific = format!("{:.*e}", DIGITS as usize - 1, number);
+    let scientific = format!("{:.*e}", digits - 1, number);
     let (mantissa, exponent) = scientific.split_once('e').unwrap_or((&scientific, "0"));
     let exponent: i32 = exponent.parse().unwrap_or(0);
-    if (-4..DIGITS).contains(&exponent) {
-        let fixed = format!("{:.*}", (DIGITS - 1 - exponent) as usize, number);
-        return f.write_str(without_trailing_zeros(&fixed));
+    let digits = digits as i32;
+    if (-4..digits).contains(&exponent) {
+        let fixed = format!("{:.*}", (digits - 1 - exponent) as usize, number);
+        return without_trailing_zeros(&fixed).to_string();
     }
     let sign = if exponent < 0 { '-' } else { '+' };
-    write!(f, "{}e{sign}{:02}", without_trailing_zeros(mantissa), exponent.abs())
+    format!("{}e{sign}{:02}", without_trailing_zeros(mantissa), exponent.abs())
 }
 
 fn without_trailing_zeros(text: &str) -> &str {

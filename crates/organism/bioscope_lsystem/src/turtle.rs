@@ -26,6 +26,10 @@
 //! Other symbols and further parameters mean nothing to it.
 //! Source: *The Algorithmic Beauty of Plants*, appendix C, with the signs of the course notes "The artificial life of plants".
 
+mod stances;
+
+pub(crate) use stances::Stance;
+
 use bioscope_core::{Error, Result, Vec3, math};
 
 use crate::{

@@ -1,30 +1,41 @@
 //! Productions, their predecessors and successors.
 
+use std::ops::Range;
+
 use super::{
-    Parsed, Parser, Part, SyntaxError,
-    expression::{ExpressionParser, Scope},
+    Parsed, Parser, SyntaxError,
+    expression::{Compiler, Operand},
+    names::Scope,
 };
 use crate::{
-    expression::{Expression, Instruction, SLOT_LIMIT},
+    Alphabet,
     lexer::{Cursor, Term, Word},
-    model::{Pattern, Production, Successor},
+    machine::{Instruction, Program, SLOT_LIMIT},
+    model::{Pattern, Production, RightContext, Successor},
 };
 
 /// How many parameters one module may have.
 const ARITY_LIMIT: usize = 64;
 
+/// The three parts of a predecessor.
+struct Predecessor {
+    left: Vec<Pattern>,
+    strict: Vec<Pattern>,
+    right: Vec<Pattern>,
+}
+
+/// A module of a predecessor before its parameters have slots.
+struct Formal {
+    kind: u8,
+    names: Vec<(String, Range<usize>)>,
+}
+
 impl Parser<'_> {
     pub(super) fn production_statement(&mut self, cursor: &mut Cursor) -> Parsed<()> {
-        skip_label(cursor);
-        let span = cursor.peek_word().1;
-        let start = span.start;
+        skip_label(cursor, self.is_own());
         let production = self.production(cursor)?;
-        let context = !production.left.is_empty() || !production.right.is_empty();
-        if self.part != Part::Rewriting && (context || production.strict.len() != 1) {
-            let message = "not supported: context in a decomposition or homomorphism";
-            return Err(SyntaxError::new(start..start + 1, message));
-        }
-        self.sets[self.part as usize].list.push(production);
+        let part = self.part;
+        self.draft().add(part, production);
         Ok(())
     }
 
@@ -32,294 +43,317 @@ impl Parser<'_> {
         let place = self.source.place(cursor.peek_word().1.start);
         let text = first_line(cursor.rest());
         let mut scope = Scope::new();
-        let (left, strict, right) = self.predecessor(cursor, &mut scope)?;
-        let (mut before, mut after, mut condition) = (Vec::new(), Vec::new(), None);
-        if cursor.peek_word().0 == Word::Colon {
-            cursor.position = cursor.peek_word().1.end;
-            before = self.block(cursor, &mut scope)?;
-            condition = self.condition(cursor, &scope)?;
-            after = self.block(cursor, &mut scope)?;
-        }
-        match cursor.peek_word() {
-            (Word::Arrow, span) => cursor.position = span.end,
-            (Word::ObjectArrow, span) => {
-                return Err(SyntaxError::new(span, "not supported: object productions"));
+        let Predecessor { left, strict, right } = self.predecessor(cursor, &mut scope)?;
+        let (test, mut rest) = match cursor.peek_word() {
+            (Word::Colon, span) => {
+                cursor.position = span.end;
+                self.condition(cursor, &mut scope)?
             }
+            _ => Default::default(),
+        };
+        match cursor.peek_word() {
+            (Word::Arrow | Word::ObjectArrow, span) => cursor.position = span.end,
             (_, span) => return Err(SyntaxError::unexpected(cursor, span, "'-->'")),
         }
-        let successor = self.successor(cursor, &scope)?;
+        let kinds = self.successor(cursor, &mut scope, &mut rest)?;
         let mut probability = None;
-        if cursor.peek_word().0 == Word::Colon {
-            cursor.position = cursor.peek_word().1.end;
-            probability = Some(self.expression(cursor, &scope)?);
+        if let (Word::Colon, span) = cursor.peek_word() {
+            cursor.position = span.end;
+            let mut compiler = self.compiler(cursor, &mut scope);
+            let value = compiler.expression()?;
+            probability = Some(compiler.returning(value)?);
         }
-        match cursor.peek_term() {
-            (Term::End, _) => {}
-            (_, span) => {
-                let expected = "a module, ':' or the end of the line";
-                return Err(SyntaxError::unexpected(cursor, span, expected));
-            }
+        if let (token, span) = cursor.peek_term()
+            && token != Term::End
+        {
+            let expected = "a module, ':' or the end of the line";
+            return Err(SyntaxError::unexpected(cursor, span, expected));
         }
-        let expressions = condition.iter().chain(&probability).chain(&successor.arguments);
-        let programs = before.len() + after.len() + left.len() + strict.len() + right.len();
-        let cost = programs as u64 + expressions.map(Expression::cost).sum::<u64>();
+        let program = Program(rest.into());
+        let patterns = left.len() + strict.len() + right.len();
+        let cost = test.cost() + program.cost() + probability.as_ref().map_or(0, Program::cost);
         Ok(Production {
-            cost,
             left,
             strict,
             right,
-            before,
-            condition,
-            after,
-            successor,
+            test,
             probability,
+            successor: Successor { kinds, program },
+            slots: scope.len(),
             place,
             text,
+            cost: cost + patterns as u64,
         })
     }
 
-    fn predecessor(
+    /// The program of what precedes the arrow, and what is to be done before the successor.
+    fn condition(
         &mut self,
         cursor: &mut Cursor,
         scope: &mut Scope,
-    ) -> Parsed<(Vec<Pattern>, Vec<Pattern>, Vec<Pattern>)> {
-        let start = cursor.peek_word().1;
-        let (mut left, mut right) = (Vec::new(), Vec::new());
-        let mut strict = self.patterns(cursor, scope)?;
-        if cursor.peek_word().0 == Word::Less {
-            cursor.position = cursor.peek_word().1.end;
-            left = std::mem::replace(&mut strict, self.patterns(cursor, scope)?);
-            if left.iter().any(|pattern| pattern.is_bracket()) {
-                return Err(SyntaxError::new(start, "brackets are allowed in right contexts only"));
+    ) -> Parsed<(Program, Vec<Instruction>)> {
+        let is_own = self.is_own();
+        let mut compiler = self.compiler(cursor, scope);
+        compiler.block()?;
+        let value = match compiler.cursor.peek_term() {
+            (Term::Arrow | Term::OpenBlock, _) => Operand::Constant(1.0),
+            (Term::Star, span) => {
+                compiler.cursor.position = span.end;
+                Operand::Constant(1.0)
+            }
+            _ => compiler.expression()?,
+        };
+        let before = std::mem::take(&mut compiler.code);
+        compiler.temporaries = 0;
+        compiler.block()?;
+        let mut after = std::mem::take(&mut compiler.code);
+        compiler.code = before;
+        let always = value == Operand::Constant(1.0);
+        if is_own && !after.is_empty() {
+            // Here the probability may depend on what is computed after the condition.
+            if let Operand::Register(test) = value {
+                let skip = compiler.emit(Instruction::JumpIfFalse { test, distance: 0 })?;
+                compiler.code.append(&mut after);
+                let from = compiler.register(Operand::Constant(1.0))?;
+                compiler.emit(Instruction::Return { from })?;
+                compiler.land(skip);
+            } else {
+                compiler.code.append(&mut after);
             }
         }
-        if cursor.peek_word().0 == Word::Greater {
-            cursor.position = cursor.peek_word().1.end;
-            right = self.patterns(cursor, scope)?;
+        if always && compiler.code.is_empty() {
+            return Ok((Program::default(), after));
+        }
+        Ok((compiler.returning(value)?, after))
+    }
+
+    fn predecessor(&mut self, cursor: &mut Cursor, scope: &mut Scope) -> Parsed<Predecessor> {
+        let start = cursor.peek_word().1;
+        let (mut left, mut right) = (Vec::new(), Vec::new());
+        let mut strict = self.formals(cursor)?;
+        if let (Word::Less, span) = cursor.peek_word() {
+            cursor.position = span.end;
+            left = std::mem::replace(&mut strict, self.formals(cursor)?);
+        }
+        if let (Word::Greater, span) = cursor.peek_word() {
+            cursor.position = span.end;
+            right = self.formals(cursor)?;
         }
         if strict.is_empty() {
             return Err(SyntaxError::unexpected(cursor, start, "a module to be replaced"));
         }
-        Ok((left, strict, right))
+        // The parameters of the strict predecessor come first: all its productions share them.
+        let strict = bind(scope, strict)?;
+        let left = bind(scope, left)?;
+        let right = bind(scope, right)?;
+        if left.iter().any(Pattern::is_bracket) {
+            return Err(SyntaxError::new(start, "brackets are allowed in right contexts only"));
+        }
+        let needs_balance = self.draft().right_context != RightContext::Reference;
+        if needs_balance && !is_balanced(right.iter().map(|pattern| pattern.kind)) {
+            return Err(SyntaxError::new(start, "the brackets of this context do not match"));
+        }
+        Ok(Predecessor { left, strict, right })
     }
 
     /// Modules with names as parameters, up to something else.
-    fn patterns(&mut self, cursor: &mut Cursor, scope: &mut Scope) -> Parsed<Vec<Pattern>> {
-        let mut patterns = Vec::new();
-        if cursor.peek_word().0 == Word::Star {
-            cursor.position = cursor.peek_word().1.end;
-            return Ok(patterns);
+    fn formals(&mut self, cursor: &mut Cursor) -> Parsed<Vec<Formal>> {
+        let mut formals = Vec::new();
+        if let (Word::Star, span) = cursor.peek_word() {
+            cursor.position = span.end;
+            return Ok(formals);
         }
         while let (Word::Symbol, span) = cursor.peek_word() {
             cursor.position = span.end;
-            let slot = scope.len();
-            if cursor.peek_word().0 == Word::Open {
-                self.formals(cursor, scope)?;
-            }
-            let arity = scope.len() - slot;
-            let kind = self.kind(cursor.slice(span.clone()), arity, span)?;
-            patterns.push(Pattern { kind, arity: arity as u8, slot: slot as u8 });
-        }
-        Ok(patterns)
-    }
-
-    fn formals(&mut self, cursor: &mut Cursor, scope: &mut Scope) -> Parsed<()> {
-        cursor.position = cursor.peek_term().1.end;
-        loop {
-            let (token, span) = cursor.peek_term();
-            if token != Term::Name {
-                let expected = "the name of a parameter";
-                return Err(SyntaxError::unexpected(cursor, span, expected));
-            }
-            declare(cursor, scope, cursor.slice(span.clone()))?;
-            cursor.position = span.end;
-            let (token, span) = cursor.peek_term();
-            match token {
-                Term::Comma => cursor.position = span.end,
-                Term::Close => {
-                    cursor.position = span.end;
-                    return Ok(());
+            let symbol = cursor.slice(span.clone()).to_string();
+            let names = match cursor.peek_word().0 {
+                Word::Open => formal_names(cursor)?,
+                // A declared module may be named without its parameters.
+                _ => {
+                    let names = self.declared_names(&symbol).into_iter();
+                    names.map(|name| (name, span.clone())).collect()
                 }
-                _ => return Err(SyntaxError::unexpected(cursor, span, "',' or ')'")),
-            }
+            };
+            let kind = self.kind(&symbol, names.len(), span)?;
+            formals.push(Formal { kind, names });
         }
+        Ok(formals)
     }
 
-    fn condition(&mut self, cursor: &mut Cursor, scope: &Scope) -> Parsed<Option<Expression>> {
-        match cursor.peek_term() {
-            (Term::Arrow | Term::OpenBlock, _) => Ok(None),
-            (Term::Star, span) => {
-                cursor.position = span.end;
-                Ok(None)
-            }
-            _ => self.expression(cursor, scope).map(Some),
-        }
+    fn declared_names(&self, symbol: &str) -> Vec<String> {
+        let declared = self.declared.iter().find(|(known, _)| known == symbol);
+        declared.map(|(_, names)| names.clone()).unwrap_or_default()
     }
 
-    fn expression(&mut self, cursor: &mut Cursor, scope: &Scope) -> Parsed<Expression> {
-        ExpressionParser::new(cursor, scope, &mut self.unknown).parse()
-    }
-
-    /// `{ name = expression; … }`, if there is one.
-    fn block(&mut self, cursor: &mut Cursor, scope: &mut Scope) -> Parsed<Vec<Instruction>> {
-        let mut program = Vec::new();
-        if cursor.peek_term().0 != Term::OpenBlock {
-            return Ok(program);
-        }
-        cursor.position = cursor.peek_term().1.end;
-        loop {
-            let (token, span) = cursor.peek_term();
-            cursor.position = span.end;
-            match token {
-                Term::CloseBlock => return Ok(program),
-                Term::Semicolon => continue,
-                Term::Name => {}
-                _ => return Err(SyntaxError::unexpected(cursor, span, "a name or '}'")),
-            }
-            let name = cursor.slice(span.clone());
-            let (token, next) = cursor.peek_term();
-            if token != Term::Assign {
-                let message = format!("not supported: '{name}' other than an assignment");
-                return Err(SyntaxError::new(span, message));
-            }
-            cursor.position = next.end;
-            let value = ExpressionParser::new(cursor, scope, &mut self.unknown).parse_program()?;
-            program.extend(value);
-            if !scope.iter().any(|known| known == name) {
-                declare(cursor, scope, name)?;
-            }
-            let slot = scope.iter().position(|known| known == name).unwrap_or(0);
-            program.push(Instruction::Store(slot as u8));
-            let (token, span) = cursor.peek_term();
-            if !matches!(token, Term::Semicolon | Term::CloseBlock) {
-                return Err(SyntaxError::unexpected(cursor, span, "';'"));
-            }
-        }
-    }
-
-    /// Modules with expressions as parameters, up to something else; `*` for none.
-    pub(super) fn successor(&mut self, cursor: &mut Cursor, scope: &Scope) -> Parsed<Successor> {
-        let mut successor = Successor::default();
+    /// The axiom.
+    pub(super) fn axiom_word(&mut self, cursor: &mut Cursor) -> Parsed<Successor> {
+        let mut code = Vec::new();
+        let kinds = self.successor(cursor, &mut Scope::new(), &mut code)?;
         let (token, span) = cursor.peek_word();
-        if token == Word::Star {
-            cursor.position = span.end;
-            return Ok(successor);
+        if token != Word::End {
+            return Err(SyntaxError::unexpected(cursor, span, "a module"));
         }
-        let start = span;
+        Ok(Successor { kinds, program: Program(code.into()) })
+    }
+
+    /// Modules with expressions as parameters, up to something else; `*` for none. The code that
+    /// computes the parameters is appended.
+    fn successor(
+        &mut self,
+        cursor: &mut Cursor,
+        scope: &mut Scope,
+        code: &mut Vec<Instruction>,
+    ) -> Parsed<Vec<u8>> {
+        let mut kinds = Vec::new();
+        let (token, start) = cursor.peek_word();
+        if token == Word::Star {
+            cursor.position = start.end;
+            return Ok(kinds);
+        }
         while let (Word::Symbol, span) = cursor.peek_word() {
             cursor.position = span.end;
-            let before = successor.arguments.len();
+            let symbol = cursor.slice(span.clone()).to_string();
+            let mut arity = 0;
             if cursor.peek_word().0 == Word::Open {
-                self.arguments(cursor, scope, &mut successor.arguments)?;
+                let mut compiler = self.compiler(cursor, scope);
+                compiler.code = std::mem::take(code);
+                arity = arguments(&mut compiler)?;
+                *code = compiler.code;
+            } else {
+                arity += self.implied(&symbol, cursor, scope, code)?;
             }
-            let arity = successor.arguments.len() - before;
-            successor.kinds.push(self.kind(cursor.slice(span.clone()), arity, span)?);
+            kinds.push(self.kind(&symbol, arity, span)?);
         }
-        if successor.kinds.is_empty() {
+        if kinds.is_empty() {
             let (_, span) = cursor.peek_word();
             return Err(SyntaxError::unexpected(cursor, span, "a module, or '*' for nothing"));
         }
-        if !is_balanced(&successor.kinds) {
+        if !is_balanced(kinds.iter().copied()) {
             let message = "the brackets of this string do not match";
-            self.unknown_brackets(SyntaxError::new(start.start..cursor.position, message));
+            self.warn(SyntaxError::new(start.start..cursor.position, message));
         }
-        Ok(successor)
+        Ok(kinds)
     }
 
-    fn unknown_brackets(&mut self, warning: SyntaxError) {
-        if self.warnings.len() < super::REPORT_LIMIT {
-            self.warnings.push(self.diagnostic(warning));
-        }
-    }
-
-    fn arguments(
+    /// A declared module without parameters keeps those of the same names, others are zero.
+    fn implied(
         &mut self,
+        symbol: &str,
         cursor: &mut Cursor,
-        scope: &Scope,
-        arguments: &mut Vec<Expression>,
-    ) -> Parsed<()> {
-        cursor.position = cursor.peek_term().1.end;
-        loop {
-            let argument = self.expression(cursor, scope)?;
-            arguments.push(argument);
-            let (token, span) = cursor.peek_term();
-            match token {
-                Term::Comma => cursor.position = span.end,
-                Term::Close => {
-                    cursor.position = span.end;
-                    return Ok(());
-                }
-                _ => {
-                    let expected = "',' or ')' after a parameter";
-                    return Err(SyntaxError::unexpected(cursor, span, expected));
-                }
-            }
+        scope: &mut Scope,
+        code: &mut Vec<Instruction>,
+    ) -> Parsed<usize> {
+        let names = self.declared_names(symbol);
+        let mut compiler = self.compiler(cursor, scope);
+        compiler.code = std::mem::take(code);
+        for name in &names {
+            let known = compiler.variable(name);
+            let from = match known {
+                Some(register) => register,
+                None => compiler.register(Operand::Constant(0.0))?,
+            };
+            compiler.emit(Instruction::Emit { from })?;
         }
+        *code = compiler.code;
+        Ok(names.len())
     }
 
-    fn kind(&mut self, symbol: &str, arity: usize, span: std::ops::Range<usize>) -> Parsed<u8> {
+    fn kind(&mut self, symbol: &str, arity: usize, span: Range<usize>) -> Parsed<u8> {
         if arity > ARITY_LIMIT {
             let message = format!("a module with {arity} parameters; at most {ARITY_LIMIT}");
             return Err(SyntaxError::new(span, message));
-        }
-        if let Some(feature) = unsupported(symbol, arity) {
-            return Err(SyntaxError::new(span, format!("not supported: {feature}")));
         }
         let code = self.alphabet.intern(symbol, arity as u8);
         code.ok_or_else(|| SyntaxError::new(span, "more than 256 different kinds of module"))
     }
 }
 
-impl Pattern {
-    fn is_bracket(&self) -> bool {
-        matches!(self.kind, crate::Alphabet::OPEN | crate::Alphabet::CLOSE)
+/// `(expression, …)`; how many.
+fn arguments(compiler: &mut Compiler) -> Parsed<usize> {
+    compiler.take();
+    let mut arity = 0;
+    loop {
+        let value = match compiler.cursor.peek_term().0 {
+            Term::Text => Operand::Constant(f64::from(compiler.text()?)),
+            _ => compiler.expression()?,
+        };
+        let from = compiler.register(value)?;
+        compiler.emit(Instruction::Emit { from })?;
+        compiler.temporaries = 0;
+        arity += 1;
+        match compiler.cursor.peek_term().0 {
+            Term::Comma => compiler.take(),
+            Term::Close => {
+                compiler.take();
+                return Ok(arity);
+            }
+            _ => return Err(compiler.unexpected("',' or ')' after a parameter")),
+        }
     }
 }
 
-/// Symbols of the reference program whose meaning this engine would silently miss.
-fn unsupported(symbol: &str, arity: usize) -> Option<&'static str> {
-    match symbol {
-        "%" if arity > 0 => Some("messages about what a cut removes"),
-        "?P" | "?H" | "?L" | "?U" => Some("query modules"),
-        "?E" => Some("communication modules"),
-        "$" => Some("sub-L-systems"),
-        "@PS" | "@PC" | "@PD" => Some("string-defined patches"),
-        "@L" => Some("labels"),
-        _ => None,
+/// `(name, …)`
+fn formal_names(cursor: &mut Cursor) -> Parsed<Vec<(String, Range<usize>)>> {
+    let mut names = Vec::new();
+    loop {
+        cursor.position = cursor.peek_term().1.end;
+        let (token, span) = cursor.peek_term();
+        if token != Term::Name {
+            return Err(SyntaxError::unexpected(cursor, span, "the name of a parameter"));
+        }
+        names.push((cursor.slice(span.clone()).to_string(), span.clone()));
+        cursor.position = span.end;
+        match cursor.peek_term() {
+            (Term::Comma, _) => {}
+            (Term::Close, span) => {
+                cursor.position = span.end;
+                return Ok(names);
+            }
+            (_, span) => return Err(SyntaxError::unexpected(cursor, span, "',' or ')'")),
+        }
     }
+}
+
+/// Gives the parameters of these modules the next slots.
+fn bind(scope: &mut Scope, formals: Vec<Formal>) -> Parsed<Vec<Pattern>> {
+    let mut patterns = Vec::new();
+    for Formal { kind, names } in formals {
+        let (slot, arity) = (scope.len() as u8, names.len() as u8);
+        for (name, span) in names {
+            if scope.contains(&name) {
+                let message = format!("parameter '{name}' has a namesake here");
+                return Err(SyntaxError::new(span, message));
+            }
+            if scope.len() >= SLOT_LIMIT {
+                let message =
+                    format!("more than {SLOT_LIMIT} parameters and variables in a production");
+                return Err(SyntaxError::new(span, message));
+            }
+            scope.push(name);
+        }
+        patterns.push(Pattern { kind, arity, slot });
+    }
+    Ok(patterns)
 }
 
 /// Passes over the number of a production, as in `p12: A --> B`.
-fn skip_label(cursor: &mut Cursor) {
+fn skip_label(cursor: &mut Cursor, is_own: bool) {
     let rest = cursor.rest();
     let Some(colon) = rest.find(':') else { return };
     let label = rest[..colon].trim();
     let mut letters = label.chars();
-    let numbered =
-        letters.next() == Some('p') && letters.next().is_some_and(|c| c.is_ascii_digit());
+    let first =
+        letters.next().is_some_and(|first| first == 'p' || (is_own && first.is_alphabetic()));
+    let numbered = first && letters.next().is_some_and(|c| c.is_ascii_digit());
     if numbered && letters.all(|letter| letter.is_ascii_alphanumeric()) {
         cursor.position += colon + 1;
     }
 }
 
-fn declare(cursor: &Cursor, scope: &mut Scope, name: &str) -> Parsed<()> {
-    let span = cursor.peek_term().1;
-    if scope.iter().any(|known| known == name) {
-        return Err(SyntaxError::new(span, format!("parameter '{name}' has a namesake here")));
-    }
-    if scope.len() >= SLOT_LIMIT {
-        let message = format!("more than {SLOT_LIMIT} parameters and variables in a production");
-        return Err(SyntaxError::new(span, message));
-    }
-    scope.push(name.to_string());
-    Ok(())
-}
-
-fn is_balanced(kinds: &[u8]) -> bool {
+fn is_balanced(kinds: impl Iterator<Item = u8>) -> bool {
     let mut depth = 0_i64;
-    for &kind in kinds {
-        depth +=
-            i64::from(kind == crate::Alphabet::OPEN) - i64::from(kind == crate::Alphabet::CLOSE);
+    for kind in kinds {
+        depth += i64::from(kind == Alphabet::OPEN) - i64::from(kind == Alphabet::CLOSE);
         if depth < 0 {
             return false;
         }
@@ -330,4 +364,22 @@ fn is_balanced(kinds: &[u8]) -> bool {
 fn first_line(text: &str) -> String {
     const LONGEST: usize = 100;
     text.trim_start().lines().next().unwrap_or("").trim_end().chars().take(LONGEST).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn labels_are_numbered_letters() {
+        let rest = |text: &'static str, is_own| {
+            let mut cursor = Cursor::new(text, 0..text.len());
+            skip_label(&mut cursor, is_own);
+            cursor.rest().trim()
+        };
+        assert_eq!(rest("p12a : A --> B", false), "A --> B");
+        assert_eq!(rest("q1: A --> B", false), "q1: A --> B");
+        assert_eq!(rest("q1: A --> B", true), "A --> B");
+        assert_eq!(rest("A : x > 3 --> B", true), "A : x > 3 --> B");
+    }
 }

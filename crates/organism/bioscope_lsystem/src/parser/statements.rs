@@ -13,38 +13,62 @@ pub(super) enum Section {
     Decomposition,
     Homomorphism,
     MaximumDepth,
+    Ring,
+    Block(Block),
+    RightContext,
+    Environment,
+    Table,
+    Select,
+    Modules,
+    Order,
+    /// `array name[size] = { … }` on a line of its own.
+    Array,
     End,
-    /// Known to the reference program only.
-    Unsupported(&'static str),
+    /// A heading that says nothing.
+    Heading,
     Unknown,
 }
 
+/// A block of statements in braces.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Block {
+    Define,
+    Start,
+    StartEach,
+    EndEach,
+    End,
+}
+
 /// The words before the colon, lower case, and what they begin.
-pub(super) const SECTIONS: [(&str, Section); 24] = [
+pub(super) const SECTIONS: [(&str, Section); 28] = [
     ("lsystem", Section::Label),
     ("seed", Section::Seed),
     ("axiom", Section::Axiom),
     ("derivation length", Section::DerivationLength),
+    ("derivationlength", Section::DerivationLength),
     ("angle", Section::Angle),
     ("ignore", Section::Ignore),
     ("consider", Section::Consider),
     ("decomposition", Section::Decomposition),
     ("homomorphism", Section::Homomorphism),
     ("maximum depth", Section::MaximumDepth),
-    ("production", Section::Label),
-    ("ring lsystem", Section::Unsupported("ring L-systems")),
-    ("ring l-system", Section::Unsupported("ring L-systems")),
-    ("define", Section::Unsupported("define blocks")),
-    ("start", Section::Unsupported("start blocks")),
-    ("starteach", Section::Unsupported("startEach blocks")),
-    ("start each", Section::Unsupported("startEach blocks")),
-    ("end", Section::Unsupported("end blocks")),
-    ("endeach", Section::Unsupported("endEach blocks")),
-    ("end each", Section::Unsupported("endEach blocks")),
-    ("context", Section::Unsupported("right-context modes")),
-    ("environment", Section::Unsupported("environments")),
-    ("table", Section::Unsupported("tables")),
-    ("select", Section::Unsupported("tables")),
+    ("production", Section::Heading),
+    ("productions", Section::Heading),
+    ("ring lsystem", Section::Ring),
+    ("ring l-system", Section::Ring),
+    ("define", Section::Block(Block::Define)),
+    ("start", Section::Block(Block::Start)),
+    ("starteach", Section::Block(Block::StartEach)),
+    ("start each", Section::Block(Block::StartEach)),
+    ("end", Section::Block(Block::End)),
+    ("endeach", Section::Block(Block::EndEach)),
+    ("end each", Section::Block(Block::EndEach)),
+    ("context", Section::RightContext),
+    ("environment", Section::Environment),
+    ("table", Section::Table),
+    ("select", Section::Select),
+    ("modules", Section::Modules),
+    ("order", Section::Order),
 ];
 
 /// One statement: bytes of the text.
@@ -62,7 +86,7 @@ pub(super) struct Statement {
 pub(super) fn statements(text: &str) -> Vec<Statement> {
     let mut statements: Vec<Statement> = Vec::new();
     let mut position = 0;
-    let mut open_braces = 0;
+    let mut braces = Braces::default();
     for line in text.split_inclusive('\n') {
         let start = position;
         position += line.len();
@@ -70,34 +94,96 @@ pub(super) fn statements(text: &str) -> Vec<Statement> {
         if start == end {
             continue;
         }
+        let content = &text[start..end];
+        if braces.are_open() {
+            braces.count(content);
+            if let Some(last) = statements.last_mut() {
+                last.content.end = end;
+            }
+            continue;
+        }
         let statement = classify(text, start..end);
         match statements.last_mut() {
-            // A block that is not supported is passed over as a whole.
-            Some(Statement { section: Some(Section::Unsupported(_)), .. }) if open_braces > 0 => {}
-            Some(last) if continues(text, last, &statement, start..end) => last.content.end = end,
+            Some(last) if continues(text, last, &statement, start..end) => {
+                last.content.end = end;
+                if last.section.is_none() || matches!(last.section, Some(Section::Block(_))) {
+                    braces.count(content);
+                }
+            }
             _ => {
-                open_braces = 0;
+                braces = match statement.section {
+                    None => Braces::of_production(),
+                    Some(Section::Block(_) | Section::Array) => Braces::of_block(),
+                    Some(_) => Braces::default(),
+                };
+                braces.count(content);
                 statements.push(statement);
             }
-        }
-        if let Some(Statement { section: Some(Section::Unsupported(_)), .. }) = statements.last() {
-            open_braces += braces(&text[start..end]);
         }
     }
     statements
 }
 
-/// Whether an indented line belongs to the statement before it.
-fn continues(text: &str, last: &Statement, next: &Statement, line: Range<usize>) -> bool {
-    let indented = text[line.clone()].starts_with([' ', '\t']);
-    let is_section = next.section.is_some_and(|section| section != Section::Unknown);
-    let is_production = text[line].contains("-->")
-        && (last.section.is_some() || text[last.content.clone()].contains("-->"));
-    indented && !is_section && !is_production
+/// Braces that keep a statement open over several lines.
+///
+/// In a production only those between the colon and the arrow count: others are modules.
+#[derive(Default)]
+struct Braces {
+    open: i32,
+    counting: bool,
+    /// Whether the colon of a production is still to come.
+    before_colon: bool,
+    is_production: bool,
 }
 
-fn braces(line: &str) -> i32 {
-    line.chars().map(|letter| i32::from(letter == '{') - i32::from(letter == '}')).sum()
+impl Braces {
+    fn of_block() -> Self {
+        Self { counting: true, ..Self::default() }
+    }
+
+    fn of_production() -> Self {
+        Self { before_colon: true, is_production: true, ..Self::default() }
+    }
+
+    fn are_open(&self) -> bool {
+        self.open > 0
+    }
+
+    fn count(&mut self, line: &str) {
+        let mut in_text = false;
+        for (index, letter) in line.char_indices() {
+            match letter {
+                '"' => in_text = !in_text,
+                _ if in_text => {}
+                ':' if self.before_colon => (self.before_colon, self.counting) = (false, true),
+                '-' if self.is_production
+                    && self.open == 0
+                    && (line[index..].starts_with("-->") || line[index..].starts_with("-o>")) =>
+                {
+                    (self.before_colon, self.counting) = (false, false);
+                }
+                '{' if self.counting => self.open += 1,
+                '}' if self.counting => self.open = (self.open - 1).max(0),
+                _ => {}
+            }
+        }
+    }
+}
+
+/// Whether an indented line belongs to the statement before it.
+fn continues(text: &str, last: &Statement, next: &Statement, line: Range<usize>) -> bool {
+    let content = &text[line.clone()];
+    if let Some(Section::Block(_)) = last.section {
+        // The brace of a block may stand on the next line.
+        let is_empty = text[last.content.clone()].trim().is_empty();
+        return is_empty && content.trim_start().starts_with('{');
+    }
+    let indented = content.starts_with([' ', '\t']);
+    let is_section = next.section.is_some_and(|section| section != Section::Unknown);
+    let has_arrow = |text: &str| text.contains("-->") || text.contains("-o>");
+    let is_production =
+        has_arrow(content) && (last.section.is_some() || has_arrow(&text[last.content.clone()]));
+    indented && !is_section && !is_production
 }
 
 fn classify(text: &str, line: Range<usize>) -> Statement {
@@ -106,14 +192,20 @@ fn classify(text: &str, line: Range<usize>) -> Statement {
     let first = line.start + indent;
     let words = content.trim();
     let production = Statement { section: None, head: first..first, content: first..line.end };
-    let alone = match words.to_ascii_lowercase().as_str() {
+    let lower = words.to_ascii_lowercase();
+    let alone = match lower.as_str() {
         "endlsystem" => Some(Section::End),
         "decomposition" => Some(Section::Decomposition),
         "homomorphism" => Some(Section::Homomorphism),
+        "ring lsystem" | "ring l-system" => Some(Section::Ring),
         _ => None,
     };
     if alone.is_some() {
         return Statement { section: alone, head: first..line.end, content: line.end..line.end };
+    }
+    if lower.starts_with("array ") && words.contains('[') && !words.contains("-->") {
+        let content = first + "array ".len()..line.end;
+        return Statement { section: Some(Section::Array), head: first..content.start, content };
     }
     let Some(colon) = words.find(':') else { return production };
     let head = words[..colon].trim_end();
@@ -161,11 +253,20 @@ mod tests {
     }
 
     #[test]
-    fn unsupported_blocks_are_one_statement() {
-        let text = "define: {\narray a[2] = {1,\n2};\n}\nA --> B";
+    fn blocks_are_one_statement() {
+        let text = "define: {\narray a[2] = {1,\n2};\n}\nstart:\n{ x = 1;\n if (x) {\ny = \"}\"; }\n}\nA --> {\nB --> }";
+        let parts = split(text);
+        assert_eq!(parts.len(), 4, "{parts:?}");
+        assert_eq!(parts[1].0, Some(Section::Block(Block::Start)));
+        assert_eq!(parts[3], (None, "B --> }"));
+    }
+
+    #[test]
+    fn blocks_in_productions_may_span_lines() {
+        let text = "A(x) : {y = x;\nz = y;}\n\tz > 1 {\nw = 2;\n} --> B(z)\nB --> C";
         let parts = split(text);
         assert_eq!(parts.len(), 2, "{parts:?}");
-        assert_eq!(parts[1], (None, "A --> B"));
+        assert_eq!(parts[1], (None, "B --> C"));
     }
 
     #[test]

@@ -1,0 +1,518 @@
+//! One set of productions applied to the modules of one string, from left to right.
+
+use std::time::Instant;
+
+use super::{Choice, DerivationError, Derived, Limits};
+use crate::{
+    Alphabet, ModuleString,
+    context::{Groups, Matcher, Place},
+    machine::{Machine, is_true},
+    model::{Action, Production, ProductionSet, System},
+};
+
+/// Productions of one of the L-systems of a file, as they are used in this pass.
+#[derive(Clone, Copy)]
+pub(super) struct Layer<'a> {
+    pub system: &'a System,
+    pub set: &'a ProductionSet,
+    /// Applied to what the others make, and to what they leave.
+    pub decomposition: Option<&'a ProductionSet>,
+}
+
+/// What all parts of a pass share.
+#[derive(Clone, Copy)]
+pub(super) struct Task<'a> {
+    pub string: &'a ModuleString,
+    pub groups: &'a Groups,
+    /// One per L-system of the file; the first is the main one.
+    pub layers: &'a [Layer<'a>],
+    pub arities: &'a [u8; 256],
+    pub choice: Choice,
+    pub limits: Limits,
+    pub deadline: Option<Instant>,
+    pub step: u64,
+    /// Tells the random numbers of this pass from others.
+    pub tick: u64,
+    /// Whether it finds out what a string looks like, rather than what becomes of it.
+    pub shows: bool,
+    /// Kinds of module whose copies are noted.
+    pub noted: Option<&'a [bool]>,
+    /// Applies only the production that would be applied as this one, counted from 0.
+    pub only: Option<u64>,
+}
+
+/// What a pass has made.
+#[derive(Default)]
+pub(super) struct Made {
+    pub kinds: Vec<u8>,
+    pub parameters: Vec<f32>,
+    /// How many modules each production has made; those of the decomposition after the others.
+    pub by_production: Vec<u64>,
+    /// Number in the new and in the old string of noted modules.
+    pub notes: Vec<(usize, usize)>,
+    /// How many productions were applied, or would have been.
+    pub applied: u64,
+}
+
+/// One set applied to a part of a string.
+pub(super) struct Pass<'a, 'm> {
+    pub task: Task<'a>,
+    pub layer: Layer<'a>,
+    pub matcher: Matcher<'a>,
+    pub machine: &'m mut Machine,
+    pub out: Made,
+    pub place: Place,
+    /// Productions that apply to the present module, with their weights and bound parameters.
+    candidates: Vec<Candidate>,
+    bound: Vec<f64>,
+    /// L-systems that the present place is in, as numbers of layers; the innermost last.
+    nested: Vec<usize>,
+    /// By kind: whether it is more than copied.
+    active: [bool; 256],
+    countdown: u32,
+    /// How many results were treated again, so that each has random numbers of its own.
+    pub expansions: u32,
+}
+
+struct Candidate {
+    number: u32,
+    weight: f64,
+    /// Where its parameters begin among those that are kept.
+    bound: usize,
+}
+
+/// How many modules are treated between two looks at the clock.
+const CLOCK: u32 = 1 << 14;
+
+impl<'a, 'm> Pass<'a, 'm> {
+    pub fn new(task: Task<'a>, machine: &'m mut Machine, first: Place, looked: u64) -> Self {
+        let layer = task.layers[0];
+        let mut pass = Self {
+            matcher: Matcher {
+                string: task.string,
+                skipped: &layer.system.skipped,
+                arities: task.arities,
+                groups: task.groups,
+                right_context: layer.system.right_context,
+                is_ring: layer.system.is_ring,
+                depth: 0,
+                looked,
+                limit: task.limits.operations,
+            },
+            layer,
+            task,
+            machine,
+            out: Made::default(),
+            place: first,
+            candidates: Vec::new(),
+            bound: Vec::new(),
+            nested: vec![0],
+            active: [false; 256],
+            countdown: CLOCK,
+            expansions: 0,
+        };
+        pass.enter(0);
+        pass
+    }
+
+    /// Goes on with the productions of one of the L-systems.
+    fn enter(&mut self, number: usize) {
+        let layer = self.task.layers[number];
+        self.layer = layer;
+        self.matcher.skipped = &layer.system.skipped;
+        self.matcher.right_context = layer.system.right_context;
+        self.matcher.is_ring = layer.system.is_ring;
+        let inner = layer.decomposition.map_or(0, |set| set.productions.len());
+        self.out
+            .by_production
+            .resize((layer.set.productions.len() + inner).max(self.out.by_production.len()), 0);
+        let acts = |set: &ProductionSet, kind: usize| !matches!(set.actions[kind], Action::Keep);
+        for kind in 0..256 {
+            self.active[kind] = acts(layer.set, kind)
+                || layer.decomposition.is_some_and(|set| acts(set, kind))
+                || self.task.noted.is_some_and(|noted| noted[kind])
+                || matches!(kind as u8, Alphabet::CUT | Alphabet::REPORTED_CUT);
+        }
+        if self.task.layers.len() > 1 || self.task.choice == Choice::Reference {
+            self.active = [true; 256];
+        }
+    }
+
+    /// Treats the modules up to number `end`.
+    pub fn run(&mut self, end: usize) -> Derived<()> {
+        self.check()?;
+        while self.place.module < end {
+            let kinds = &self.task.string.kinds;
+            let from = self.place.module;
+            let is_active = |&kind: &u8| self.active[kind as usize];
+            let length = kinds[from..end].iter().position(is_active).unwrap_or(end - from);
+            if length > 0 {
+                self.copy(length);
+            } else {
+                self.module()?;
+            }
+        }
+        self.check()
+    }
+
+    /// Copies so many modules.
+    #[inline]
+    fn copy(&mut self, count: usize) {
+        let string = self.task.string;
+        let kinds = &string.kinds[self.place.module..self.place.module + count];
+        let arities = self.task.arities;
+        let parameters: usize = kinds.iter().map(|&kind| arities[kind as usize] as usize).sum();
+        let first = self.place.parameter;
+        self.out.kinds.extend_from_slice(kinds);
+        self.out.parameters.extend_from_slice(&string.parameters[first..first + parameters]);
+        self.place.module += count;
+        self.place.parameter += parameters;
+        self.matcher.looked += count as u64;
+    }
+
+    /// Appends what becomes of the next module.
+    #[inline]
+    fn module(&mut self) -> Derived<()> {
+        let set = self.layer.set;
+        let kind = self.task.string.kinds[self.place.module];
+        self.matcher.looked += 1;
+        let number = match &set.actions[kind as usize] {
+            Action::Keep => None,
+            Action::Replace(number) if self.task.choice != Choice::Reference => Some(*number),
+            Action::Replace(number) => self.choose(&[*number])?,
+            Action::Try(numbers) => self.choose(numbers)?,
+        };
+        match number {
+            Some(number) if self.may_apply() => self.apply(number)?,
+            _ => self.keep(kind)?,
+        }
+        if self.matcher.looked > self.task.limits.operations {
+            return self.check();
+        }
+        self.countdown -= 1;
+        if self.countdown == 0 {
+            self.countdown = CLOCK;
+            return self.check();
+        }
+        Ok(())
+    }
+
+    /// Whether the production that was found is to be applied, and not only counted.
+    #[inline]
+    fn may_apply(&mut self) -> bool {
+        self.out.applied += 1;
+        self.task.only.is_none_or(|only| only + 1 == self.out.applied)
+    }
+
+    /// The production to apply among those of these numbers, its parameters bound.
+    fn choose(&mut self, numbers: &[u32]) -> Derived<Option<u32>> {
+        let set = self.layer.set;
+        self.candidates.clear();
+        self.bound.clear();
+        for &number in numbers {
+            if !self.applies(set, number)? {
+                continue;
+            }
+            let production = &set.productions[number as usize];
+            let Some(weight) = self.weight(production)? else { return Ok(Some(number)) };
+            let bound = self.bound.len();
+            self.bound.extend_from_slice(&self.machine.slots()[..production.slots]);
+            self.candidates.push(Candidate { number, weight, bound });
+        }
+        let chosen = match self.task.choice {
+            Choice::Reference => self.draw_as_reference(),
+            _ if self.candidates.is_empty() => None,
+            _ => self.draw(),
+        };
+        let Some(Candidate { number, bound, .. }) = chosen else { return Ok(None) };
+        let slots = set.productions[number as usize].slots;
+        self.machine.slots()[..slots].copy_from_slice(&self.bound[bound..bound + slots]);
+        Ok(Some(number))
+    }
+
+    /// Weight of a production that applies; none if it is taken without a draw.
+    #[inline]
+    fn weight(&mut self, production: &Production) -> Derived<Option<f64>> {
+        let is_first = self.candidates.is_empty();
+        match (&production.probability, self.task.choice) {
+            (_, Choice::First) => Ok(None),
+            (None, Choice::FirstOrWeighted) if is_first => Ok(None),
+            (None, _) => Ok(Some(1.0)),
+            (Some(program), choice) => {
+                let weight = self.machine.run(program, &mut Vec::new());
+                self.examine(production)?;
+                // The reference program takes negative weights as they are.
+                Ok(Some(if choice == Choice::Reference { weight } else { weight.max(0.0) }))
+            }
+        }
+    }
+
+    /// Draws one of the candidates; none if their weights are all zero.
+    fn draw(&mut self) -> Option<Candidate> {
+        let total: f64 = self.candidates.iter().map(|candidate| candidate.weight).sum();
+        if total.is_nan() || total <= 0.0 {
+            return None;
+        }
+        let draw = self.machine.random.choice(self.place.module, self.task.tick);
+        let mut rest = draw * total;
+        let mut last = None;
+        for candidate in self.candidates.drain(..) {
+            if candidate.weight > 0.0 {
+                let weight = candidate.weight;
+                last = Some(candidate);
+                if rest < weight {
+                    break;
+                }
+                rest -= weight;
+            }
+        }
+        last
+    }
+
+    /// Draws as the reference program does: with its precision, and one number also for modules
+    /// to which nothing applies.
+    fn draw_as_reference(&mut self) -> Option<Candidate> {
+        let mut total = 0.0_f32;
+        for candidate in &self.candidates {
+            total += candidate.weight as f32;
+        }
+        let draw = self.machine.random.choice(self.place.module, self.task.tick);
+        let mut rest = (f64::from(total) * draw) as f32;
+        for candidate in self.candidates.drain(..) {
+            rest -= candidate.weight as f32;
+            if rest <= 0.0 {
+                return Some(candidate);
+            }
+        }
+        None
+    }
+
+    /// Whether a production applies to the present module; binds its parameters.
+    #[inline]
+    fn applies(&mut self, set: &'a ProductionSet, number: u32) -> Derived<bool> {
+        let production = &set.productions[number as usize];
+        let place = self.place;
+        self.matcher.looked += 1;
+        if !self.matcher.follows(&production.strict, place, self.machine.slots()) {
+            return Ok(false);
+        }
+        let after = self.after(production);
+        self.holds(production, number, place, after)
+    }
+
+    /// Whether the contexts and the condition of a production hold whose predecessor is bound;
+    /// the left context ends before `before`, the right one begins at `after`.
+    #[inline]
+    pub fn holds(
+        &mut self,
+        production: &Production,
+        number: u32,
+        before: Place,
+        after: Place,
+    ) -> Derived<bool> {
+        if !production.left.is_empty()
+            && !self.matcher.precedes(&production.left, before, self.machine.slots())
+        {
+            return Ok(false);
+        }
+        if !production.right.is_empty()
+            && !self.matcher.succeeds(&production.right, after, self.machine.slots())
+        {
+            return Ok(false);
+        }
+        self.machine.random.begin(self.place.module, self.task.tick, number);
+        if production.test.is_empty() {
+            return Ok(true);
+        }
+        self.matcher.looked += production.cost;
+        let value = self.machine.run(&production.test, &mut self.out.parameters);
+        self.examine(production)?;
+        Ok(is_true(value, self.machine.pool.rules))
+    }
+
+    /// The place after the modules that a production replaces.
+    #[inline]
+    fn after(&self, production: &Production) -> Place {
+        let arity: usize = production.strict.iter().map(|pattern| pattern.arity as usize).sum();
+        Place {
+            module: self.place.module + production.strict.len(),
+            parameter: self.place.parameter + arity,
+        }
+    }
+
+    /// Appends the successor of a production whose parameters are bound.
+    fn apply(&mut self, number: u32) -> Derived<()> {
+        let set = self.layer.set;
+        let production = &set.productions[number as usize];
+        let successor = &production.successor;
+        let before = self.place;
+        let after = self.after(production);
+        self.out.by_production[number as usize] += successor.kinds.len() as u64;
+        match self.layer.decomposition {
+            Some(decomposition) => {
+                let mut parameters = Vec::new();
+                self.machine.run(&successor.program, &mut parameters);
+                self.examine(production)?;
+                self.expand(decomposition, &successor.kinds, parameters, (before, after))?;
+            }
+            None => {
+                self.out.kinds.extend_from_slice(&successor.kinds);
+                if !successor.program.is_empty() {
+                    self.matcher.looked += successor.program.cost();
+                    self.machine.run(&successor.program, &mut self.out.parameters);
+                    self.examine(production)?;
+                }
+            }
+        }
+        self.place = after;
+        if self.task.layers.len() > 1 {
+            self.pass_over(before.module..after.module, before.parameter);
+        }
+        self.bound_size()
+    }
+
+    /// A module to which no production applies.
+    fn keep(&mut self, kind: u8) -> Derived<()> {
+        if self.task.choice == Choice::Reference {
+            self.draw_for_nothing(kind);
+        }
+        if let Some(decomposition) = self.layer.decomposition
+            && self.expand_here(decomposition)?
+        {
+            return self.bound_size();
+        }
+        if matches!(kind, Alphabet::CUT | Alphabet::REPORTED_CUT) && !self.task.shows {
+            self.cut();
+            return Ok(());
+        }
+        if self.task.noted.is_some_and(|noted| noted[kind as usize]) {
+            self.out.notes.push((self.out.kinds.len(), self.place.module));
+        }
+        let before = self.place;
+        self.copy(1);
+        if self.task.layers.len() > 1 {
+            self.pass_over(before.module..before.module + 1, before.parameter);
+        }
+        Ok(())
+    }
+
+    /// The reference program draws a number for every module, and sees the letters of `@o` as two.
+    fn draw_for_nothing(&mut self, kind: u8) {
+        let mut draws = self.task.string.alphabet.kinds()[kind as usize].symbol.len();
+        if !matches!(self.layer.set.actions[kind as usize], Action::Keep) {
+            draws -= 1;
+        }
+        for _ in 0..draws {
+            self.machine.random.choice(self.place.module, self.task.tick);
+        }
+    }
+
+    /// Removes everything up to the end of the branch.
+    fn cut(&mut self) {
+        let string = self.task.string;
+        let (mut depth, mut inner) = (0, 0);
+        while let Some(&kind) = string.kinds.get(self.place.module) {
+            match kind {
+                Alphabet::OPEN => depth += 1,
+                Alphabet::CLOSE if depth == 0 => return,
+                Alphabet::CLOSE => depth -= 1,
+                Alphabet::END if inner == 0 && self.nested.len() > 1 => return,
+                Alphabet::END if inner > 0 => inner -= 1,
+                _ if self.sub_system(kind) => inner += 1,
+                _ => {}
+            }
+            self.place.module += 1;
+            self.place.parameter += self.task.arities[kind as usize] as usize;
+        }
+    }
+
+    fn sub_system(&self, kind: u8) -> bool {
+        let kind = &self.task.string.alphabet.kinds()[kind as usize];
+        &*kind.symbol == "?" && kind.arity > 0
+    }
+
+    /// Goes into and out of the sub-L-systems that these modules of the old string begin and end.
+    fn pass_over(&mut self, modules: std::ops::Range<usize>, mut parameter: usize) {
+        let string = self.task.string;
+        let mut changed = false;
+        for &kind in &string.kinds[modules] {
+            if kind == Alphabet::END && self.nested.len() > 1 {
+                self.nested.pop();
+                changed = true;
+            } else if self.sub_system(kind) {
+                let label = string.parameters[parameter] as i64;
+                let named = |layer: &Layer| layer.system.label == label;
+                self.nested.push(self.task.layers.iter().position(named).unwrap_or(0));
+                changed = true;
+            }
+            parameter += self.task.arities[kind as usize] as usize;
+        }
+        if changed {
+            self.enter(self.nested[self.nested.len() - 1]);
+        }
+    }
+
+    /// An error if the last evaluation of a production failed.
+    #[inline]
+    pub fn examine(&mut self, production: &Production) -> Derived<()> {
+        let Some(fault) = self.machine.fault.take() else { return Ok(()) };
+        Err(DerivationError::Fault {
+            place: production.place.clone(),
+            what: fault.to_string(),
+            step: self.task.step,
+            production: production.text.clone(),
+        })
+    }
+
+    /// An error if the string has become too large.
+    #[inline]
+    pub fn bound_size(&self) -> Derived<()> {
+        let modules = self.out.kinds.len();
+        if modules <= self.task.limits.modules && self.bytes() <= self.task.limits.bytes {
+            return Ok(());
+        }
+        self.check()
+    }
+
+    fn bytes(&self) -> usize {
+        self.out.kinds.len() + size_of::<f32>() * self.out.parameters.len()
+    }
+
+    /// An error if a limit is exceeded.
+    pub fn check(&self) -> Derived<()> {
+        let Limits { modules, bytes, operations } = self.task.limits;
+        let what = if self.out.kinds.len() > modules {
+            format!("more than {modules} modules")
+        } else if self.bytes() > bytes {
+            format!("more than {bytes} bytes of modules and parameters")
+        } else if self.matcher.looked > operations {
+            format!("more than {operations} operations")
+        } else if self.task.deadline.is_some_and(|deadline| Instant::now() > deadline) {
+            "more time than it was given".to_string()
+        } else {
+            return Ok(());
+        };
+        Err(exceeded(&self.task, &self.out.by_production, what))
+    }
+}
+
+/// The error about a limit; it names the production that made most of the string.
+#[cold]
+pub(super) fn exceeded(task: &Task, by_production: &[u64], what: String) -> DerivationError {
+    let layer = task.layers[0];
+    let inner = layer.decomposition.iter().flat_map(|set| &set.productions);
+    let productions: Vec<&Production> = layer.set.productions.iter().chain(inner).collect();
+    let count = |number: &usize| by_production.get(*number).copied().unwrap_or(0);
+    let largest = (0..productions.len()).rev().max_by_key(count);
+    let Some(production) = largest.and_then(|number| productions.get(number)) else {
+        let place = crate::Place { file: "".into(), line: 1, column: 1 };
+        let production = String::new();
+        return DerivationError::Limit { place, what, step: task.step, production };
+    };
+    DerivationError::Limit {
+        place: production.place.clone(),
+        what,
+        step: task.step,
+        production: production.text.clone(),
+    }
+}
