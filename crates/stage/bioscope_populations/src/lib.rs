@@ -1,6 +1,7 @@
 //! The populations: assemblies of faculties that live in a world, one folder each.
 
 pub mod animals;
+pub mod bites;
 pub mod catalog;
 pub mod drifters;
 pub mod fish;

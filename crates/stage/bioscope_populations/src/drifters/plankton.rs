@@ -1,12 +1,13 @@
 use std::sync::Arc;
 
 use bioscope_core::{
-    Error, Id, Parameters, Purpose, Random, Result, Vec3, math, parameters, state,
+    Error, Event, Id, Parameters, Purpose, Random, Result, Vec3, math, parameters, state,
 };
 use bioscope_geometry::Points;
 use bioscope_world::{Environment, Growth, Moment, Population, Publication, View};
 use serde::{Deserialize, Serialize};
 
+use crate::bites::{EATEN, Gone, bitten};
 use crate::names::free_name;
 
 const BIRTH: Purpose = Purpose::new("plankton birth");
@@ -77,6 +78,8 @@ pub struct Plankton {
 struct State {
     options: PlanktonOptions,
     drifters: Vec<Drifter>,
+    /// Those that were eaten in this tick.
+    eaten: Vec<Gone>,
 }
 
 #[derive(Clone, Copy, Serialize, Deserialize)]
@@ -86,7 +89,7 @@ struct Drifter {
     /// Own motion through the water, metres per second.
     swimming: Vec3,
     radius: f32,
-    /// Whether it has left the box in this tick.
+    /// Whether it has left the box, or was eaten, in this tick.
     gone: bool,
 }
 
@@ -94,7 +97,7 @@ impl Plankton {
     /// Plankton of these options; refuses boxes and sizes that make no sense.
     pub fn new(options: PlanktonOptions) -> Result<Self> {
         check(&options)?;
-        Ok(Self { state: State { options, drifters: Vec::new() } })
+        Ok(Self { state: State { options, drifters: Vec::new(), eaten: Vec::new() } })
     }
 
     /// Plankton in a state that `save` gave.
@@ -107,6 +110,21 @@ impl Plankton {
     /// Where each drifter is, metres.
     pub fn positions(&self) -> impl Iterator<Item = Vec3> + '_ {
         self.state.drifters.iter().map(|one| one.position)
+    }
+
+    /// Lets go of those that were bitten.
+    fn be_eaten(&mut self, events: &[Event]) {
+        let biters = bitten(events);
+        self.state.eaten.clear();
+        if biters.is_empty() {
+            return;
+        }
+        for drifter in &mut self.state.drifters {
+            if let Some(&into) = biters.get(&drifter.id) {
+                drifter.gone = true;
+                self.state.eaten.push(Gone { who: drifter.id, into });
+            }
+        }
     }
 
     /// Replaces those that have left by newcomers where the water flows in.
@@ -267,7 +285,7 @@ impl Population for Plankton {
     }
 
     fn advance(&mut self, view: &View) -> Result<()> {
-        let State { options, drifters } = &mut self.state;
+        let State { options, drifters, .. } = &mut self.state;
         let points = drifters.iter().map(|one| one.position).collect::<Vec<_>>();
         let influences = view.environment.influence(&points, view.moment.time)?;
         for (drifter, influence) in drifters.iter_mut().zip(&influences) {
@@ -280,11 +298,12 @@ impl Population for Plankton {
     }
 
     fn grow(&mut self, growth: &mut Growth) -> Result<()> {
+        self.be_eaten(growth.events);
         self.enter(growth)
     }
 
     fn publish(&self, publication: &mut Publication) -> Result<()> {
-        let State { options, drifters } = &self.state;
+        let State { options, drifters, eaten } = &self.state;
         publication.scene.points.push(Points {
             name: free_name(&publication.scene, &options.species),
             species: Arc::from(options.species.as_str()),
@@ -295,6 +314,8 @@ impl Population for Plankton {
             opacity: options.opacity,
             glassy: false,
         });
+        let moment = publication.moment;
+        publication.events.extend(eaten.iter().map(|gone| gone.event(EATEN, &moment)));
         Ok(())
     }
 

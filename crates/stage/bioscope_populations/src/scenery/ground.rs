@@ -2,7 +2,7 @@ use std::sync::Arc;
 
 use bioscope_core::{Error, Id, Result, state};
 use bioscope_geometry::{Batch, Material, Mesh, ReefRelief, Terrain, Transform};
-use bioscope_world::{Growth, Population, Publication, View};
+use bioscope_world::{Growth, Population, Publication};
 use serde::{Deserialize, Serialize};
 
 use super::seabed;

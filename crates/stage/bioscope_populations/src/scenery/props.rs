@@ -2,7 +2,7 @@ use std::sync::Arc;
 
 use bioscope_core::{Error, Id, Result, Vec3, state};
 use bioscope_geometry::{Batch, Material, Mesh, Obstacle, Texture, Transform};
-use bioscope_world::{Growth, Population, Publication, View};
+use bioscope_world::{Growth, Population, Publication};
 use serde::{Deserialize, Serialize};
 
 use crate::names::free_name;

@@ -2,7 +2,7 @@ use std::sync::Arc;
 
 use bioscope_core::{Error, Id, Purpose, Quat, Random, Result, Vec3, math, state};
 use bioscope_geometry::{Batch, Material, Mesh, Noise, Obstacle, Transform};
-use bioscope_world::{Growth, Population, Publication, View};
+use bioscope_world::{Growth, Population, Publication};
 use serde::{Deserialize, Serialize};
 
 use super::forms::{icosphere, with_details, wrap_from_three_sides};

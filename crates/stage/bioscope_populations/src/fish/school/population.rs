@@ -16,6 +16,7 @@ use super::fish::{Fish, Step};
 use super::threats::Lookout;
 use super::{FishSchoolOptions, SchoolParameters};
 use crate::animals::way_out;
+use crate::bites::{CAUGHT, Gone, bitten};
 use crate::fish::FishForm;
 use crate::names::free_name;
 
@@ -42,6 +43,8 @@ pub struct FishSchool {
     pub(super) regrouped_from: Option<usize>,
     /// Wishes of the first few fishes, for show: accelerations in units of the greatest.
     pub(super) wishes: Vec<Vec3>,
+    /// Those that were caught in this tick.
+    pub(super) caught: Vec<Gone>,
     pub(super) scratch: Scratch,
 }
 
@@ -66,6 +69,7 @@ impl FishSchool {
             groups: 1,
             regrouped_from: None,
             wishes: Vec::new(),
+            caught: Vec::new(),
             scratch: Scratch::default(),
             options,
         })
@@ -223,6 +227,7 @@ impl FishSchool {
 
     fn events(&self, publication: &mut Publication) {
         let moment = publication.moment;
+        publication.events.extend(self.caught.iter().map(|gone| gone.event(CAUGHT, &moment)));
         let mut happen =
             |kind: &'static str, subject: Id, object: Option<Id>, groups: Option<usize>| {
                 let data = groups.map(|groups| (String::from("groups"), (groups as f64).into()));
@@ -301,6 +306,17 @@ impl Population for FishSchool {
         let home = (self.options.home.unwrap_or(self.options.center), home_radius);
         self.course.advance(cruise * goal_pace * dt, home, view.environment, &view.moment);
         self.count_groups(view.moment.tick);
+        Ok(())
+    }
+
+    fn grow(&mut self, growth: &mut Growth) -> Result<()> {
+        self.caught.clear();
+        for (who, into) in bitten(growth.events) {
+            let Some(index) = self.flock.ids().iter().position(|&id| id == who) else { continue };
+            self.flock.remove(who);
+            self.fishes.remove(index);
+            self.caught.push(Gone { who, into });
+        }
         Ok(())
     }
 

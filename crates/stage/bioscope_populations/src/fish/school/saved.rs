@@ -6,6 +6,7 @@ use super::course::Course;
 use super::fish::Fish;
 use super::population::Scratch;
 use super::{FishSchool, FishSchoolOptions, SchoolParameters};
+use crate::bites::Gone;
 use crate::fish::FishSpecies;
 
 const PART: &str = "school of fish";
@@ -25,6 +26,7 @@ struct State {
     groups: usize,
     regrouped_from: Option<usize>,
     wishes: Vec<Vec3>,
+    caught: Vec<Gone>,
 }
 
 impl FishSchool {
@@ -55,6 +57,7 @@ impl FishSchool {
             groups: state.groups,
             regrouped_from: state.regrouped_from,
             wishes: state.wishes,
+            caught: state.caught,
             scratch: Scratch::default(),
             options,
         })
@@ -76,6 +79,7 @@ impl FishSchool {
             groups: self.groups,
             regrouped_from: self.regrouped_from,
             wishes: self.wishes.clone(),
+            caught: self.caught.clone(),
         }))
     }
 }

@@ -5,7 +5,7 @@ use bioscope_core::{
     Error, Id, Parameters, Purpose, Quat, Random, Result, SoundEvent, Vec3, math, parameters, state,
 };
 use bioscope_geometry::{Batch, Material, Mesh, Obstacle, Transform};
-use bioscope_world::{Environment, Growth, Inspection, Moment, Population, Publication, View};
+use bioscope_world::{Environment, Growth, Inspection, Moment, Population, Publication};
 use serde::{Deserialize, Serialize};
 
 use super::kinds::CoralKind;
