@@ -12,8 +12,16 @@ macro_rules! species {
     };
 }
 
-const FILES: [(&str, &str); 5] =
-    species!["anchovy", "anthias", "barracuda", "fusilier", "grey_reef_shark"];
+const FILES: [(&str, &str); 8] = species![
+    "anchovy",
+    "anthias",
+    "barracuda",
+    "butterflyfish",
+    "clownfish",
+    "emperor_angelfish",
+    "fusilier",
+    "grey_reef_shark",
+];
 
 static READ: [OnceLock<Arc<FishSpecies>>; FILES.len()] = [const { OnceLock::new() }; FILES.len()];
 
