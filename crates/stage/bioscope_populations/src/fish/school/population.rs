@@ -21,6 +21,9 @@ use crate::fish::FishForm;
 use crate::names::free_name;
 
 const BIRTH: Purpose = Purpose::new("birth of a schooling fish");
+const COURSE: Purpose = Purpose::new("first course of a school");
+/// How much the first headings of fishes differ from their school's, as a share of it.
+const HEADINGS: f32 = 0.5;
 /// Fishes that one task handles.
 const TASK: usize = 64;
 /// Ticks from one count of groups to the next.
@@ -262,14 +265,19 @@ impl Population for FishSchool {
         let variation = species.variation;
         self.flock = Flock::new(self.flock.parameters.clone(), growth.moment.seed)?;
         let (length, cruise) = (self.body_length(), self.flock.parameters.cruise_speed);
-        for id in growth.identities(count)? {
+        let ids = growth.identities(count)?;
+        // A school that has long been together swims one way.
+        let first = ids.first().copied().unwrap_or(NOTHING);
+        let common = growth.moment.random(first, COURSE).direction();
+        for id in ids {
             let mut random = growth.moment.random(id, BIRTH);
             let environment = &*growth.environment;
             let mut draw = || center + half * random.in_ball();
             let free = |place: &Vec3| way_out(*place, length, environment) == Vec3::ZERO;
             let drawn = (0..32).map(|_| draw()).find(free);
             let place = drawn.unwrap_or_else(|| center + way_out(center, length, environment));
-            let level = random.direction() * Vec3::new(1.0, 0.2, 1.0);
+            let heading = common + random.direction() * HEADINGS;
+            let level = heading * Vec3::new(1.0, 0.2, 1.0);
             let velocity = level.normalize_or(Vec3::Z) * (cruise * length);
             self.flock.push(id, place, velocity)?;
             self.fishes.push(Fish::born(variation, velocity, &mut random));
