@@ -5,9 +5,22 @@
 //! physics, so any mind drives any body and is tested with typed-in percepts.
 
 pub mod arbitration;
+pub mod attention;
+mod behavior_network;
+mod character;
+pub mod drives;
+mod free_flow;
+mod intentions;
 mod mind;
+mod nature;
 mod roamer;
+pub mod routines;
 pub mod steering;
 
+pub use attention::Behavior;
+pub use behavior_network::BehaviorNetwork;
+pub use free_flow::FreeFlow;
+pub use intentions::{Circumstances, Fatigue, Generator, Intentions};
 pub use mind::{Mind, place};
+pub use nature::{Habits, Nature, Relation, Role, Temper};
 pub use roamer::{Roamer, RoamerParameters};

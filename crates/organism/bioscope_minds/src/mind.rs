@@ -1,5 +1,7 @@
+use std::collections::BTreeMap;
+
 use bioscope_core::{
-    Annotation, Id, Intention, Mark, Parameters, Percepts, Quat, Random, Result, Vec3,
+    Annotation, Id, Intention, Mark, Parameters, Percepts, Quat, Random, Result, Value, Vec3,
 };
 
 /// What one animal wants, decided once a tick from what it notices.
@@ -16,6 +18,11 @@ pub trait Mind: Send + Sync {
         random: &mut Random,
         annotations: &mut Vec<Annotation>,
     ) -> Result<Intention>;
+
+    /// Inner life for inspectors: drives and the like, by name.
+    fn values(&self) -> BTreeMap<String, Value> {
+        BTreeMap::new()
+    }
 
     /// Tunable numbers, if it has any.
     fn parameters(&self) -> Option<&dyn Parameters> {

@@ -1,0 +1,84 @@
+use std::f32::consts::PI;
+
+use bioscope_core::{Sighting, Vec3};
+
+use super::{Chase, Command, chase};
+use crate::attention::{Situation, azimuth, elevation};
+use crate::nature::Temper;
+
+/// Deviation from the course of the school that it does not mind (Tu 1996, 6.5.2), halved: choice.
+const TOLERANCE: f32 = PI / 10.0;
+/// Neighbors that it heeds, the nearest first.
+const HEEDED: usize = 7;
+/// Distance of the nearest neighbor beyond which it hurries to the school, body lengths.
+const APART: f32 = 3.0;
+
+/// The routine schooling (Tu 1996, 6.5.2; its figure is lost): with nobody near it chases its leader or the
+/// middle of those it sees; else it matches the mean course and speed of its neighbors, closes gaps wider than
+/// the wanted spacing and opens narrower ones, keeps their depth, brakes when it overtakes and hurries when
+/// it falls behind. The leader, if in view, counts as the neighbor that shows the way.
+pub fn school(situation: &Situation, temper: &Temper) -> Option<Command> {
+    let length = situation.length;
+    let own_speed = situation.percepts.velocity.length();
+    let nearest = situation.school.first().map(|one| one.position.length());
+    let follow = |target: Vec3, velocity: Vec3| {
+        let stop = temper.spacing * length;
+        let goal = Chase { target, velocity, tolerance: TOLERANCE, lead: 0.0, stop };
+        Some(chase(&goal, length, own_speed, temper))
+    };
+    match (nearest, situation.leader) {
+        (None, None) => None,
+        (None, Some(leader)) => follow(leader.position, leader.velocity),
+        (Some(distance), leader) if distance > APART * length => match leader {
+            Some(leader) => follow(leader.position, leader.velocity),
+            None => {
+                let (middle, velocity) = mean(&situation.school);
+                follow(middle, velocity)
+            }
+        },
+        (Some(_), leader) => Some(in_formation(situation, leader, temper)),
+    }
+}
+
+fn in_formation(situation: &Situation, leader: Option<&Sighting>, temper: &Temper) -> Command {
+    let length = situation.length;
+    let neighbors = &situation.school[..situation.school.len().min(HEEDED)];
+    let (middle, velocity) = mean(neighbors);
+    let course = neighbors.iter().map(|one| one.heading).sum::<Vec3>().normalize_or_zero();
+    // Towards each neighbor that is farther than the spacing, away from those that are nearer.
+    let spacing = temper.spacing * length;
+    let pull = |place: Vec3| {
+        let excess = (place.length() - spacing) / spacing;
+        let weight = if excess > 0.0 { 0.35 * excess.min(2.0) } else { 1.6 * excess };
+        place.normalize_or_zero() * weight
+    };
+    let gaps =
+        neighbors.iter().map(|one| pull(one.position)).sum::<Vec3>() / neighbors.len() as f32;
+    let (mut wanted, mut pace) = (course + gaps, velocity.length());
+    if let Some(leader) = leader {
+        let behind = leader.position.length() / length - 2.0 * temper.spacing;
+        wanted += leader.heading * 0.5
+            + leader.position.normalize_or_zero() * (0.2 * behind).clamp(0.0, 1.0);
+        pace = 0.5 * (pace + leader.velocity.length());
+    }
+    let turn = azimuth(wanted);
+    let along = middle.z / length;
+    let speed = pace / length + 0.5 * (along + gaps.z).clamp(-1.0, 1.5);
+    let speed = speed.clamp(0.3 * temper.cruise_speed, temper.full_speed);
+    let overtakes = along < -0.8 && situation.percepts.velocity.length() > 1.2 * pace;
+    Command {
+        turn: if turn.abs() > TOLERANCE { turn } else { 0.5 * turn },
+        pitch: elevation(wanted + Vec3::Y * (0.3 * middle.y / length)).clamp(-0.8, 0.8),
+        speed,
+        brake: if overtakes { 0.4 } else { 0.0 },
+        mouth: 0.0,
+    }
+}
+
+/// Mean place and velocity.
+fn mean(all: &[&Sighting]) -> (Vec3, Vec3) {
+    let share = 1.0 / all.len().max(1) as f32;
+    let place: Vec3 = all.iter().map(|one| one.position).sum();
+    let velocity: Vec3 = all.iter().map(|one| one.velocity).sum();
+    (place * share, velocity * share)
+}
