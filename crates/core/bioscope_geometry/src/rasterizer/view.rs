@@ -1,8 +1,9 @@
 //! What a look gives.
 
 use bioscope_core::Id;
+use rayon::prelude::*;
 
-use super::arithmetic::rgb;
+use super::arithmetic::{channels, rgb};
 use super::light::filmic;
 use super::texture::encoded;
 
@@ -63,12 +64,15 @@ impl View {
     /// The picture for a screen: exposed, filmic tone curve, sRGB bytes, three per pixel.
     /// `exposure` multiplies the radiance; 1 suits a sunlit scene.
     pub fn developed(&self, exposure: f32) -> Vec<u8> {
-        self.color
-            .iter()
-            .flat_map(|&radiance| {
+        let width = self.width.max(1);
+        let mut pixels = vec![0; 3 * self.color.len()];
+        let rows = pixels.par_chunks_mut(3 * width).zip(self.color.par_chunks(width));
+        rows.for_each(|(bytes, colors)| {
+            for (bytes, &radiance) in bytes.chunks_mut(3).zip(colors) {
                 let display = filmic(rgb(radiance) * exposure);
-                [encoded(display.x), encoded(display.y), encoded(display.z)]
-            })
-            .collect()
+                bytes.copy_from_slice(&channels(display).map(encoded));
+            }
+        });
+        pixels
     }
 }
