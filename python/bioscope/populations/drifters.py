@@ -28,6 +28,8 @@ class Plankton(Asked):
         Linear colour.
     opacity
         0 (invisible) to 1 (solid).
+    species
+        Its name in the scene, by which animals know it: `plankton` if not given.
     **parameters
         See `World.parameters`.
     """
@@ -41,6 +43,7 @@ class Plankton(Asked):
         radius: tuple[float, float] | None = None,
         color: Vector | None = None,
         opacity: float | None = None,
+        species: str | None = None,
         **parameters: float,
     ) -> None:
         options = {
@@ -50,6 +53,7 @@ class Plankton(Asked):
             "radius": radius,
             "color": color,
             "opacity": opacity,
+            "species": species,
         }
         super().__init__("plankton", options, parameters)
 
