@@ -9,10 +9,11 @@ from typing import TYPE_CHECKING, Any
 
 from bioscope.errors import BioscopeError, MissingExtraError
 from bioscope.live import messages
+from bioscope.live.door import PAGE
 from bioscope.live.feed import Feed
 from bioscope.live.inspection import inspection
 from bioscope.live.messages import encode
-from bioscope.live.server import INSPECTIONS_PER_SECOND, PAGE, serve
+from bioscope.live.server import INSPECTIONS_PER_SECOND, serve
 from bioscope.live.session import Session
 
 if TYPE_CHECKING:

@@ -4,19 +4,19 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
-import errno
-import hmac
-import ipaddress
-import socket
-import threading
-import webbrowser
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
-from urllib.parse import quote, urlsplit
 
-from bioscope import _engine
-from bioscope.errors import BioscopeError, FormatError, InvalidValueError
+from bioscope.errors import BioscopeError, FormatError
 from bioscope.live import messages
+from bioscope.live.door import (
+    MALFORMED,
+    REFUSED,
+    Door,
+    page_file,
+    received,
+    refusal,
+    same_origin,
+)
 from bioscope.live.feed import Feed
 from bioscope.live.inspection import inspection
 from bioscope.live.messages import encode
@@ -32,13 +32,9 @@ if TYPE_CHECKING:
 
     from bioscope.world import World
 
-PAGE = Path(__file__).parent / "page"
-_PORTS_TO_TRY = 50
 INSPECTIONS_PER_SECOND = 10
 _MESSAGES_QUEUED = 256
 _JOIN_WITHIN = 10.0
-REFUSED, MALFORMED, OTHER_VERSION = 4001, 4000, 4002
-"""Codes with which a page's connection is closed."""
 
 
 class Client:
@@ -91,7 +87,7 @@ class Live:
         allowed = None if hosts is None else set(hosts)
 
         def page(request: Request) -> Response:
-            return self._file(request, allowed)
+            return page_file(request, request.url.path.strip("/") or "index.html", allowed)
 
         async def stream(websocket: WebSocket) -> None:
             await self._serve(websocket, allowed)
@@ -106,25 +102,10 @@ class Live:
         files = [Route(path, page) for path in ("/", "/index.html", "/widget.js")]
         return Starlette(routes=[*files, WebSocketRoute("/stream", stream)], lifespan=lifespan)
 
-    def _file(self, request: Request, allowed: set[str] | None) -> Response:
-        from starlette.responses import PlainTextResponse
-        from starlette.responses import Response as Answer
-
-        if allowed is not None and request.url.hostname not in allowed:
-            return PlainTextResponse("unknown host", 421)
-        name = request.url.path.strip("/") or "index.html"
-        path = PAGE / name
-        if not path.is_file():
-            text = "The page was not built: run `make setup` in the checkout, or install the wheel."
-            return PlainTextResponse(text, 503)
-        kind = "text/html; charset=utf-8" if name.endswith(".html") else "text/javascript"
-        headers = {"Cache-Control": "no-cache", "X-Content-Type-Options": "nosniff"}
-        return Answer(path.read_bytes(), media_type=kind, headers=headers)
-
     # One page's connection.
 
     async def _serve(self, websocket: WebSocket, allowed: set[str] | None) -> None:
-        if not _same_origin(websocket, allowed):
+        if not same_origin(websocket, allowed):
             await websocket.close(REFUSED)
             return
         await websocket.accept()
@@ -151,7 +132,7 @@ class Live:
         """Wait for a fitting `join` as the first message."""
         command: object = None
         try:
-            text = await asyncio.wait_for(_text(client.socket), _JOIN_WITHIN)
+            text = await asyncio.wait_for(received(client.socket), _JOIN_WITHIN)
             command = messages.decode(text)
         except (FormatError, TimeoutError) as error:
             await self._refuse(client, MALFORMED, f"expected join first: {error}")
@@ -161,17 +142,9 @@ class Live:
         if not isinstance(command, messages.Join):
             await self._refuse(client, MALFORMED, "expected join first")
             return False
-        given = (command.token or "").encode()
-        if self.token is not None and not hmac.compare_digest(given, self.token.encode()):
-            await self._refuse(
-                client, REFUSED, "This world asks for a token: add ?token=… to the address."
-            )
-            return False
-        if command.version != _engine.VERSION:
-            text = (
-                f"The page is of version {command.version}, the world of {_engine.VERSION}: reload."
-            )
-            await self._refuse(client, OTHER_VERSION, text)
+        refused = refusal(self.token, command.token, command.version)
+        if refused is not None:
+            await self._refuse(client, *refused)
             return False
         for message in self.session.greeting():
             client.tell(message)
@@ -191,7 +164,7 @@ class Live:
 
         while True:
             try:
-                command = messages.decode(await _text(client.socket))
+                command = messages.decode(await received(client.socket))
             except ConnectionError:
                 return
             except FormatError as error:
@@ -235,60 +208,6 @@ class Live:
                 client.tell(await loop.run_in_executor(None, inspection, world, chosen, size))
 
 
-async def _text(websocket: WebSocket) -> str | bytes:
-    """Return the next message; raise `ConnectionError` when the page has gone."""
-    message = await websocket.receive()
-    if message["type"] != "websocket.receive":
-        raise ConnectionError
-    text: str | bytes = message.get("text") or message.get("bytes") or ""
-    return text
-
-
-def _same_origin(websocket: WebSocket, allowed: set[str] | None) -> bool:
-    """Whether the page came from this server; programs that are no browsers send no origin."""
-    host = websocket.headers.get("host", "")
-    if allowed is not None and urlsplit(f"//{host}").hostname not in allowed:
-        return False
-    origin = websocket.headers.get("origin")
-    return origin is None or urlsplit(origin).netloc == host
-
-
-def is_loopback(host: str) -> bool:
-    """Whether an address can be reached from this machine only."""
-    if host == "localhost":
-        return True
-    try:
-        return ipaddress.ip_address(host).is_loopback
-    except ValueError:
-        return False
-
-
-def listening(host: str, port: int, say: Callable[..., None]) -> socket.socket:
-    """Return a socket that listens at the port, or at the next free one.
-
-    Raises
-    ------
-    InvalidValueError
-        If the address cannot be listened at.
-    """
-    family = socket.AF_INET6 if ":" in host else socket.AF_INET
-    for candidate in range(port, min(port + _PORTS_TO_TRY, 65536)):
-        listener = socket.socket(family, socket.SOCK_STREAM)
-        listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-        try:
-            listener.bind((host, candidate))
-            listener.listen()
-        except OSError as error:
-            listener.close()
-            if error.errno == errno.EADDRINUSE:
-                continue
-            raise InvalidValueError(f"--host {host} --port {candidate}: {error.strerror}") from None
-        if candidate != port:
-            say(f"port {port} is in use: took {candidate}")
-        return listener
-    raise InvalidValueError(f"--port {port}: this and the next {_PORTS_TO_TRY - 1} are in use")
-
-
 def serve(
     world: World | str,
     *,
@@ -318,26 +237,8 @@ def serve(
     InvalidValueError
         For an address beyond this machine without a token, or one that cannot be listened at.
     """
-    import uvicorn
-
-    if not is_loopback(host) and not token:
-        raise InvalidValueError(f"--host {host}: expected --token too, for others can reach it")
-    listener = listening(host, port, say)
+    door = Door(host, port, token, say)
     live = Live(world, seed, token)
-    hosts = {host, "localhost", "127.0.0.1", "::1"} if is_loopback(host) else None
-    config = uvicorn.Config(
-        live.app(hosts),
-        log_level="warning",
-        ws_max_size=messages.LARGEST_MESSAGE,
-        ws_per_message_deflate=False,
-        timeout_graceful_shutdown=1,
-    )
-    shown = f"[{host}]" if ":" in host else host
-    address = f"http://{shown}:{listener.getsockname()[1]}/"
-    if token:
-        address += f"?token={quote(token)}"
     say(f"{live.session.world.title}: seed {live.session.world.seed}")
-    say(f"live at {address}  (Ctrl-C ends it)")
-    if open_browser:
-        threading.Timer(0.5, webbrowser.open, [address]).start()
-    uvicorn.Server(config).run(sockets=[listener])
+    say(f"live at {door.address}  (Ctrl-C ends it)")
+    door.serve(live.app(door.hosts), messages.LARGEST_MESSAGE, open_browser=open_browser)
