@@ -7,20 +7,27 @@ use bioscope_core::{Error, Result};
 use super::FishSpecies;
 
 macro_rules! species {
-    ($($name:literal),*) => {
+    ($($name:literal),* $(,)?) => {
         [$(($name, include_str!(concat!("../../../species/", $name, ".toml")))),*]
     };
 }
 
-const FILES: [(&str, &str); 8] = species![
+const FILES: [(&str, &str); 15] = species![
     "anchovy",
     "anthias",
     "barracuda",
+    "blacktip_shark",
+    "blue_tang",
     "butterflyfish",
+    "cardinalfish",
+    "chromis",
     "clownfish",
     "emperor_angelfish",
     "fusilier",
     "grey_reef_shark",
+    "moorish_idol",
+    "parrotfish",
+    "yellow_tang",
 ];
 
 static READ: [OnceLock<Arc<FishSpecies>>; FILES.len()] = [const { OnceLock::new() }; FILES.len()];
