@@ -9,7 +9,30 @@
 //! Source: R. Měch and P. Prusinkiewicz, "Visual models of plants interacting with their
 //! environment", SIGGRAPH 1996, section 4.
 
+mod cells;
+mod collision;
+mod guides;
+mod patch_light;
+mod pipe;
+mod registry;
+mod settings;
+mod shadow;
+mod sky_light;
+mod soil;
+mod takenaka;
+
 use bioscope_core::Vec3;
+
+pub use collision::{Collision, Competition};
+pub use guides::{Obstacles, Pole, Pruning, Shape};
+pub use patch_light::{LightMap, PatchLight};
+pub use pipe::Pipe;
+pub use registry::{built_in, environment_names, read_environment};
+pub use settings::Settings;
+pub use shadow::{Density, DensityVoxels, ShadowVoxels};
+pub use sky_light::SkyLight;
+pub use soil::SoilWater;
+pub use takenaka::LeafBalls;
 
 /// A module that follows a communication module.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -96,4 +119,42 @@ pub trait Environment: Send {
         requests: &[Request],
         replies: &mut [Reply],
     ) -> Result<(), EnvironmentError>;
+}
+
+/// A turtle's heading, left and up, for tests: up as near as possible to +Z.
+#[cfg(test)]
+fn frame(heading: Vec3) -> (Vec3, Vec3, Vec3) {
+    let left = Vec3::Z.cross(heading).normalize_or(Vec3::X);
+    (heading, left, heading.cross(left))
+}
+
+/// Asks an environment once, for tests: parameters, place and heading of each message.
+#[cfg(test)]
+fn ask(environment: &mut dyn Environment, asked: &[(&[f32], Vec3, Vec3)]) -> Vec<Vec<f32>> {
+    let request =
+        |(module, &(parameters, position, heading)): (usize, &(&'_ [f32], Vec3, Vec3))| {
+            (module, parameters.to_vec(), position, frame(heading))
+        };
+    let all: Vec<_> = asked.iter().enumerate().map(request).collect();
+    let requests: Vec<Request> = all
+        .iter()
+        .map(|(module, parameters, position, (heading, left, up))| Request {
+            module: *module,
+            id: *module as u64,
+            parameters,
+            position: *position,
+            heading: *heading,
+            left: *left,
+            up: *up,
+            width: 0.1,
+            color: 1,
+            following: None,
+        })
+        .collect();
+    let mut answers: Vec<Vec<f32>> = asked.iter().map(|one| one.0.to_vec()).collect();
+    let mut replies: Vec<Reply> =
+        answers.iter_mut().map(|answer| Reply { parameters: answer }).collect();
+    environment.exchange(0, &requests, &mut replies).unwrap();
+    drop(replies);
+    answers
 }

@@ -1,5 +1,8 @@
+use std::sync::Arc;
+
 use bioscope_core::Vec3;
 
+use crate::files::Shapes;
 use crate::turtle::Frame;
 
 /// What the turtle has drawn: segments that form axes, polygons, surfaces and balls.
@@ -15,6 +18,14 @@ pub struct Interpretation {
     pub surfaces: Vec<Surface>,
     /// Balls.
     pub balls: Vec<Ball>,
+    /// Discs.
+    pub discs: Vec<Disc>,
+    /// Bicubic patches whose control points the turtle set.
+    pub patches: Vec<Patch>,
+    /// Texts at places of the plant.
+    pub labels: Vec<Label>,
+    /// The surfaces and contours that the parts name.
+    pub shapes: Arc<Shapes>,
 }
 
 /// One step of the turtle with the pen down.
@@ -47,6 +58,10 @@ pub struct Axis {
     pub parent: Option<Anchor>,
     /// Its cross-section.
     pub contour: Contour,
+    /// Number of its texture; 0 is none.
+    pub texture: u16,
+    /// Sides of its cross-section; 0 leaves them to the mesh.
+    pub sides: u16,
     /// How many segments it has.
     pub segments: u32,
     /// Number of its last segment.
@@ -72,6 +87,8 @@ pub enum Contour {
     Ribbon,
     /// Flat, its edges bent up and down in turn.
     Ruffle,
+    /// The contour of this number in [`Shapes`].
+    Profile(i32),
 }
 
 /// A filled polygon.
@@ -81,6 +98,8 @@ pub struct Polygon {
     pub corners: Vec<Vec3>,
     /// Index of its color.
     pub color: i32,
+    /// Number of its texture; 0 is none.
+    pub texture: u16,
     /// Where it sits on the plant.
     pub anchor: Option<Anchor>,
 }
@@ -98,6 +117,8 @@ pub struct Surface {
     pub scale: Vec3,
     /// Index of its color.
     pub color: i32,
+    /// Number of its texture; 0 is none.
+    pub texture: u16,
     /// Where it sits on the plant.
     pub anchor: Option<Anchor>,
 }
@@ -115,6 +136,63 @@ pub struct Ball {
     pub color: i32,
     /// Where it sits on the plant.
     pub anchor: Option<Anchor>,
+}
+
+/// A disc, or a ring if it has a rim.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Disc {
+    /// Its center, metres.
+    pub center: Vec3,
+    /// Its radius, metres.
+    pub radius: f32,
+    /// Width of its rim, metres; a disc without rim is filled.
+    pub rim: Option<f32>,
+    /// Perpendicular to it, a unit vector.
+    pub normal: Vec3,
+    /// Index of its color.
+    pub color: i32,
+    /// Where it sits on the plant.
+    pub anchor: Option<Anchor>,
+}
+
+/// A bicubic patch over 16 points.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Patch {
+    /// Its control points by row and column, metres.
+    pub points: [[Vec3; 4]; 4],
+    /// How the points are blended.
+    pub basis: Basis,
+    /// Quads along the rows and columns.
+    pub quads: [u32; 2],
+    /// Index of its color.
+    pub color: i32,
+    /// Number of its texture; 0 is none.
+    pub texture: u16,
+    /// Where it sits on the plant.
+    pub anchor: Option<Anchor>,
+}
+
+/// How four points in a row are blended.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Basis {
+    /// The patch begins and ends in points.
+    #[default]
+    Bezier,
+    /// Uniform B-spline.
+    BSpline,
+    /// Catmull and Rom's spline (cardinal, tension 1/2): through the inner points.
+    Cardinal,
+}
+
+/// A text at a place of the plant.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Label {
+    /// Where it stands, metres.
+    pub position: Vec3,
+    /// The numbers of `@L`: which text, and what to write into it.
+    pub parameters: Vec<f32>,
+    /// Index of its color.
+    pub color: i32,
 }
 
 impl Interpretation {

@@ -10,6 +10,7 @@ mod context;
 mod derivation;
 mod diagnostic;
 mod environment;
+mod files;
 mod functions;
 mod geometry;
 mod interpretation;
@@ -24,10 +25,22 @@ mod turtle;
 
 pub use derivation::{Derivation, DerivationError, DerivationOptions, Limits};
 pub use diagnostic::{Diagnostic, Diagnostics, Place};
-pub use environment::{Environment, EnvironmentError, Following, Reply, Request};
+pub use environment::{
+    Collision, Competition, Density, DensityVoxels, Environment, EnvironmentError, Following,
+    LeafBalls, LightMap, Obstacles, PatchLight, Pipe, Pole, Pruning, Reply, Request, Settings,
+    ShadowVoxels, Shape, SkyLight, SoilWater, built_in, environment_names, read_environment,
+};
+pub use files::{
+    Animation, ContourShape, ContourVertex, Curve, EnvironmentFile, Function, FunctionTable,
+    Interval, Shapes, SurfaceShape, Tessellation, TextureFile, View, ViewCamera, ViewLight,
+    read_color_map, read_materials,
+};
 pub use functions::Functions;
 pub use geometry::{MeshOptions, Palette, PlantShape, SkeletonOptions};
-pub use interpretation::{Anchor, Axis, Ball, Contour, Interpretation, Polygon, Segment, Surface};
+pub use interpretation::{
+    Anchor, Axis, Ball, Basis, Contour, Disc, Interpretation, Label, Patch, Polygon, Segment,
+    Surface,
+};
 pub use model::{Alphabet, LSystem, ModuleKind};
 pub use string::ModuleString;
-pub use turtle::{Frame, Turtle, TurtleOptions};
+pub use turtle::{Conventions, Frame, Movement, Pose, Turtle, TurtleOptions};

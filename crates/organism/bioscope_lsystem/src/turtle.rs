@@ -16,461 +16,420 @@
 //! | `[` `]` | remembers, returns to the state of the matching bracket |
 //! | `!(w)` `#(w)` | sets the width (diameter); without parameter thinner, thicker by the step of the options |
 //! | `;(n)` `,(n)` | sets the color; without parameter the next, the previous; `'` is `;` |
+//! | `@D(s)` `@Di(f)` `@Dd(f)` | sets, multiplies, divides the size of all that follows |
+//! | `?(n,s)` `$` | begins a sub-L-system of size s, ends it |
 //! | `{` `.` `}` | begins a polygon, adds a corner here, fills it; `F` and `f` add corners too, `G` and `g` do not |
+//! | `{(n)` `.` `}(n)` | an axis over control points: 1 and 2 are Hermite curves, 3 and 4 B-splines, 2 and 4 closed |
+//! | `@Gs` `@Gc(n)` `@Ge(n)` | begins, continues (by n rings), ends an axis over control points |
+//! | `@Gt(a,b)` `@Gr(a,l,b,m)` | how far such an axis keeps to the heading, the slopes of its radius |
+//! | `@#(n)` `@!(n)` | the cross-section of what is drawn: 0 round, 1 ribbon, 2 ruffled ribbon, or contour n; its sides |
+//! | `@Tx(n)` | texture n |
 //! | `~x(s)` `~x(a,b,c)` | a surface scaled by s, or by a to the left, b ahead and c up |
+//! | `@PS(i,b)` `@PC(i,r,c)` `@PD(i,s,t)` | begins patch i with basis b, sets its point (r, c) here, draws it with s × t quads |
 //! | `@O(r)` | a ball of radius r |
-//! | `@#(n)` | the cross-section of what is drawn: 0 round, 1 ribbon, 2 ruffled ribbon |
-//! | `@Gs` `@Ge` | begins (with the present width and color), ends an axis |
-//! | `@Td(x,y,z)` `@Ts(e)` | the direction of the tropism, how much it turns the heading |
+//! | `@o(r)` `@c(r)` `@bo(r)` `@bc(r)` | a disc in the plane of x and y, of H and L; the same as rings |
+//! | `@Td(x,y,z)` `@Ts(e)` `_(e)` | the direction of the tropism, how much it turns the heading |
+//! | `@Ti(n,e)` `@Td(n,e)` `@Ts(n,e)` | more, less, this elasticity towards the tropism of number n |
+//! | `@Tp` `@Tf` | undoes the twist since the last stroke, keeps it |
+//! | `@L(n,…)` | text n here |
+//! | `%` `@mc(1)` | what follows in this branch is not drawn, if the options say so; always |
 //!
-//! Other symbols and further parameters mean nothing to it.
-//! Source: *The Algorithmic Beauty of Plants*, appendix C, with the signs of the course notes "The artificial life of plants".
+//! Where the course notes and the program cpfg differ, [`Conventions`] decides. Other symbols and further
+//! parameters mean nothing to it.
+//!
+//! Sources: *The Algorithmic Beauty of Plants*, appendix C, with the signs of the course notes "The artificial life of plants";
+//! R. Měch, *CPFG version 4.0 user's manual* (2005), section 5.1.9.
 
+mod axes;
+mod command;
+mod draw;
+mod options;
+mod patch;
+mod spline;
 mod stances;
+mod state;
 
+use bioscope_core::{Error, Result, Vec3};
+use glam::DVec3;
+
+use crate::{Alphabet, ModuleString, interpretation::Interpretation};
+use axes::{Angle, Axes};
+use command::{Change, Command, command};
+use patch::PatchTable;
+use spline::Spline;
+use state::{MOVEMENTS, State};
+
+pub use axes::Frame;
+pub use options::{Conventions, Movement, TurtleOptions};
 pub(crate) use stances::Stance;
-
-use bioscope_core::{Error, Result, Vec3, math};
-
-use crate::{
-    ModuleString,
-    interpretation::{Anchor, Axis, Ball, Contour, Interpretation, Polygon, Segment, Surface},
-};
 
 /// How deeply brackets may be nested.
 const DEPTH_LIMIT: usize = 100_000;
 /// How many segments, corners and surfaces may be made together.
 const PART_LIMIT: usize = 50_000_000;
+/// Turns whose sine and cosine are remembered.
+const ANGLES: usize = 64;
 
-/// What the turtle does when a symbol does not say how much.
-#[derive(Clone, Debug, PartialEq)]
-pub struct TurtleOptions {
-    /// Length of `F` and `f`, metres.
-    pub step: f32,
-    /// Angle of turns, degrees.
-    pub angle: f32,
-    /// Width (diameter) at the start, metres.
+/// Where the turtle is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pose {
+    /// Its place, metres.
+    pub position: Vec3,
+    /// Its axes.
+    pub frame: Frame,
+    /// Width of what it draws, metres.
     pub width: f32,
-    /// By how much `#` and `!` change the width, metres.
-    pub width_step: f32,
-    /// Color at the start: an index of the palette.
+    /// Index of its color.
     pub color: i32,
-    /// Whether `/` rolls to the right (in the direction from U to L reversed) and `\` to the
-    /// left, as in the standard literature; the course notes have it the other way round.
-    pub slash_rolls_right: bool,
-    /// Direction of the tropism.
-    pub tropism: Vec3,
-    /// How much of the torque of the tropism turns the heading at each `F`, radians; 0 is none.
-    pub susceptibility: f32,
-}
-
-impl Default for TurtleOptions {
-    fn default() -> Self {
-        Self {
-            step: 1.0,
-            angle: 45.0,
-            width: 0.1,
-            width_step: 0.01,
-            color: 1,
-            slash_rolls_right: false,
-            tropism: Vec3::NEG_Y,
-            susceptibility: 0.0,
-        }
-    }
-}
-
-/// Three perpendicular unit vectors, H × L = U.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Frame {
-    /// Where the turtle goes.
-    pub heading: Vec3,
-    /// Its left.
-    pub left: Vec3,
-    /// Its up.
-    pub up: Vec3,
-}
-
-impl Frame {
-    const START: Self = Self { heading: Vec3::Y, left: Vec3::NEG_X, up: Vec3::Z };
-
-    /// The frame with this heading whose up is as near as possible to `up`.
-    fn looking(heading: Vec3, up: Vec3) -> Self {
-        let heading = heading.normalize_or(Vec3::Y);
-        let left = up.cross(heading).normalize_or(heading.any_orthonormal_vector());
-        Self { heading, left, up: heading.cross(left) }
-    }
-
-    fn turn(&mut self, degrees: f32) {
-        rotate(&mut self.heading, &mut self.left, degrees);
-        self.straighten();
-    }
-
-    fn pitch(&mut self, degrees: f32) {
-        rotate(&mut self.up, &mut self.heading, degrees);
-        self.straighten();
-    }
-
-    fn roll(&mut self, degrees: f32) {
-        rotate(&mut self.up, &mut self.left, degrees);
-        self.straighten();
-    }
-
-    /// Turns the heading towards `direction` by `strength` radians times the sine of the angle between.
-    fn bend(&mut self, direction: Vec3, strength: f32) {
-        let torque = self.heading.cross(direction);
-        let heading = self.heading + torque.cross(self.heading) * strength;
-        self.heading = heading.normalize_or(self.heading);
-        self.straighten();
-    }
-
-    /// Removes what rounding has bent.
-    fn straighten(&mut self) {
-        self.heading = self.heading.normalize();
-        let left = self.left - self.heading * self.heading.dot(self.left);
-        self.left = left.normalize_or(self.heading.any_orthonormal_vector());
-        self.up = self.heading.cross(self.left);
-    }
-}
-
-/// Turns `a` towards `b`, and `b` away from `a`.
-fn rotate(a: &mut Vec3, b: &mut Vec3, degrees: f32) {
-    let angle = (degrees % 360.0).to_radians();
-    let (sine, cosine) = (math::sin(angle), math::cos(angle));
-    (*a, *b) = (*a * cosine + *b * sine, *b * cosine - *a * sine);
-}
-
-/// What a symbol tells the turtle.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Command {
-    Nothing,
-    Draw { corner: bool },
-    Move { corner: bool },
-    Turn(f32),
-    Pitch(f32),
-    Roll(f32),
-    Back,
-    Level,
-    Look,
-    Go,
-    Push,
-    Pop,
-    Width(f32),
-    Color(i32),
-    BeginPolygon,
-    Corner,
-    EndPolygon,
-    Surface(char),
-    Ball,
-    Contour,
-    BeginAxis,
-    EndAxis,
-    TropismDirection,
-    Susceptibility,
-}
-
-fn command(symbol: &str, options: &TurtleOptions) -> Command {
-    let slash = if options.slash_rolls_right { -1.0 } else { 1.0 };
-    match symbol {
-        "F" => Command::Draw { corner: true },
-        "G" => Command::Draw { corner: false },
-        "f" => Command::Move { corner: true },
-        "g" => Command::Move { corner: false },
-        "+" => Command::Turn(1.0),
-        "-" => Command::Turn(-1.0),
-        "&" => Command::Pitch(1.0),
-        "^" => Command::Pitch(-1.0),
-        "/" => Command::Roll(slash),
-        "\\" => Command::Roll(-slash),
-        "|" => Command::Back,
-        "@v" => Command::Level,
-        "@R" => Command::Look,
-        "@M" => Command::Go,
-        "[" => Command::Push,
-        "]" => Command::Pop,
-        "#" => Command::Width(1.0),
-        "!" => Command::Width(-1.0),
-        ";" | "'" => Command::Color(1),
-        "," => Command::Color(-1),
-        "{" => Command::BeginPolygon,
-        "." => Command::Corner,
-        "}" => Command::EndPolygon,
-        "@O" => Command::Ball,
-        "@#" => Command::Contour,
-        "@Gs" => Command::BeginAxis,
-        "@Ge" => Command::EndAxis,
-        "@Td" => Command::TropismDirection,
-        "@Ts" => Command::Susceptibility,
-        _ => match symbol.strip_prefix('~').and_then(|name| name.chars().next()) {
-            Some(name) => Command::Surface(name),
-            None => Command::Nothing,
-        },
-    }
-}
-
-/// What brackets remember.
-#[derive(Clone, Copy, Debug)]
-struct State {
-    position: Vec3,
-    frame: Frame,
-    width: f32,
-    color: i32,
-    contour: Contour,
-    tropism: Vec3,
-    susceptibility: f32,
-    /// How many brackets are open.
-    depth: u32,
-    /// The axis that the next segment continues.
-    axis: Option<u32>,
-    /// Where the next axis begins on another.
-    anchor: Option<Anchor>,
-    /// Width and color with which the next axis begins, if not with those of its first segment.
-    beginning: Option<(f32, i32)>,
 }
 
 /// Interprets strings of modules.
 pub struct Turtle<'a> {
     options: &'a TurtleOptions,
+    commands: Vec<Command>,
+    /// Whether it leaves anything behind.
+    draws: bool,
     state: State,
     stack: Vec<State>,
     polygons: Vec<Vec<Vec3>>,
     corners: usize,
+    spline: Option<Box<Spline>>,
+    splines: Vec<Option<Box<Spline>>>,
+    patches: PatchTable,
+    /// Sizes outside the sub-L-systems that have begun.
+    scales: Vec<f32>,
+    /// The stroke that tapers to the next width (cpfg).
+    tapering: Option<u32>,
+    /// Brackets open inside what a cut removes.
+    skipped: Option<usize>,
+    angles: [(u32, Angle); ANGLES],
+    angle: Angle,
     out: Interpretation,
 }
 
 impl<'a> Turtle<'a> {
     /// What the string looks like.
     pub fn interpret(string: &ModuleString, options: &'a TurtleOptions) -> Result<Interpretation> {
-        let mut turtle = Self::new(options);
-        let commands: Vec<Command> =
-            string.alphabet().kinds().iter().map(|kind| command(&kind.symbol, options)).collect();
+        let mut turtle = Self::new(string.alphabet(), options);
+        let arities: Vec<u8> = string.alphabet().kinds().iter().map(|kind| kind.arity).collect();
         let mut rest = string.parameters();
         for &code in string.kinds() {
-            let arity = string.alphabet().kinds()[code as usize].arity as usize;
-            let (parameters, after) = rest.split_at(arity);
+            let (parameters, after) = rest.split_at(arities[code as usize] as usize);
             rest = after;
-            turtle.obey(commands[code as usize], parameters);
-            turtle.check()?;
+            turtle.read(code, parameters)?;
         }
-        Ok(turtle.out)
+        Ok(turtle.finish())
     }
 
-    fn new(options: &'a TurtleOptions) -> Self {
-        let state = State {
-            position: Vec3::ZERO,
-            frame: Frame::START,
-            width: options.width,
-            color: options.color,
-            contour: Contour::Round,
-            tropism: options.tropism,
-            susceptibility: options.susceptibility,
-            depth: 0,
-            axis: None,
-            anchor: None,
-            beginning: None,
-        };
+    /// A turtle at the start that draws what modules of this alphabet say.
+    pub fn new(alphabet: &Alphabet, options: &'a TurtleOptions) -> Self {
+        let kinds = alphabet.kinds().iter();
+        let round = options.conventions == Conventions::Notes;
         Self {
             options,
-            state,
+            commands: kinds.map(|kind| command(&kind.symbol, kind.arity, options)).collect(),
+            draws: true,
+            state: State::new(options),
             stack: Vec::new(),
             polygons: Vec::new(),
             corners: 0,
-            out: Interpretation::default(),
+            spline: None,
+            splines: Vec::new(),
+            patches: PatchTable::default(),
+            scales: Vec::new(),
+            tapering: None,
+            skipped: None,
+            angles: [(u32::MAX, Angle::HALF_TURN); ANGLES],
+            angle: Angle::of_degrees(options.angle, round),
+            out: Interpretation { shapes: options.shapes.clone(), ..Interpretation::default() },
         }
+    }
+
+    /// A turtle that only walks, to be asked for its [`Self::pose`].
+    pub fn walking(alphabet: &Alphabet, options: &'a TurtleOptions) -> Self {
+        Self { draws: false, ..Self::new(alphabet, options) }
+    }
+
+    /// Does what the module with this code (in the alphabet) and these parameters says.
+    pub fn read(&mut self, code: u8, parameters: &[f32]) -> Result<()> {
+        let command = self.commands.get(code as usize).copied().unwrap_or(Command::Nothing);
+        if self.skipped.is_some() && !self.skip(command) {
+            return Ok(());
+        }
+        self.obey(command, parameters);
+        self.check()
+    }
+
+    /// Where it is now.
+    pub fn pose(&self) -> Pose {
+        let mut frame = self.state.axes.rounded();
+        if self.is_cpfg() {
+            frame.up = -frame.up;
+        }
+        Pose {
+            position: self.state.position.as_vec3(),
+            frame,
+            width: self.state.width,
+            color: self.state.color,
+        }
+    }
+
+    /// Ends the walk: what it has left behind.
+    pub fn finish(mut self) -> Interpretation {
+        self.end_stroke();
+        self.out
+    }
+
+    fn is_cpfg(&self) -> bool {
+        self.options.conventions == Conventions::Cpfg
+    }
+
+    /// Whether a command counts again after a cut: the bracket that closes the branch does.
+    fn skip(&mut self, command: Command) -> bool {
+        let Some(open) = &mut self.skipped else { return true };
+        match command {
+            Command::Push => *open += 1,
+            Command::Pop if *open == 0 => {
+                self.skipped = None;
+                return true;
+            }
+            Command::Pop => *open -= 1,
+            _ => {}
+        }
+        false
     }
 
     fn obey(&mut self, command: Command, parameters: &[f32]) {
         let first = parameters.first().copied().map(finite);
-        let angle = first.unwrap_or(self.options.angle);
-        let step = first.unwrap_or(self.options.step);
         match command {
             Command::Nothing => {}
-            Command::Draw { corner } if self.polygons.is_empty() || !corner => self.draw(step),
-            Command::Draw { .. } => self.go(step, true),
-            Command::Move { corner } => self.go(step, corner),
-            Command::Turn(sign) => self.state.frame.turn(sign * angle),
-            Command::Pitch(sign) => self.state.frame.pitch(sign * angle),
-            Command::Roll(sign) => self.state.frame.roll(sign * angle),
-            Command::Back => self.state.frame.turn(180.0),
-            Command::Level => self.state.frame = Frame::looking(self.state.frame.heading, Vec3::Y),
-            Command::Look => {
-                if let (Some(heading), Some(up)) = (vector(parameters, 0), vector(parameters, 3)) {
-                    self.state.frame = Frame::looking(heading, up);
-                }
-            }
-            Command::Go => {
-                self.leave_axis();
-                self.state.position = vector(parameters, 0).unwrap_or(self.state.position);
-            }
+            Command::Turn(_) | Command::Pitch(_) | Command::Roll(_) => self.rotate(command, first),
+            Command::Back => self.state.axes.turn(Angle::HALF_TURN),
             Command::Push => self.push(),
-            Command::Pop => self.state = self.stack.pop().unwrap_or(self.state),
+            Command::Pop => self.pop(),
+            Command::Draw { corner } => self.draw(self.length(first), corner),
+            Command::Move { corner } => self.go(self.length(first), corner),
             Command::Width(sign) => {
-                let width = self.state.width + sign * self.options.width_step;
-                self.state.width = first.unwrap_or(width).max(0.0);
+                let step = sign * self.options.width_step * self.state.scale;
+                let width = first.map(|width| width * self.state.scale);
+                self.state.width = width.unwrap_or(self.state.width + step).max(0.0);
             }
-            Command::Color(change) => {
-                let next = self.state.color.saturating_add(change);
-                self.state.color = first.map_or(next, |color| color as i32);
+            Command::Color(change) => self.color(change, first),
+            Command::Corner if self.polygons.is_empty() => self.control_point(first),
+            Command::BeginPolygon if first.is_some_and(|kind| kind != 0.0) => {
+                self.begin_spline(first, parameters.get(1).copied());
             }
-            Command::BeginPolygon => self.polygons.push(Vec::new()),
+            Command::EndPolygon if first.is_some_and(|kind| kind != 0.0) => self.end_spline(),
+            Command::BeginPolygon => {
+                self.end_stroke();
+                self.polygons.push(Vec::new());
+            }
             Command::Corner => self.corner(),
             Command::EndPolygon => self.end_polygon(),
             Command::Surface(name) => self.surface(name, parameters),
-            Command::Ball => self.ball(first.unwrap_or(self.state.width / 2.0)),
+            _ => self.special(command, first, parameters),
+        }
+    }
+
+    /// The commands that begin with `@`, and the rare ones.
+    fn special(&mut self, command: Command, first: Option<f32>, parameters: &[f32]) {
+        self.end_stroke();
+        match command {
+            Command::Level => {
+                self.state.axes = Axes::looking(self.state.axes.heading, DVec3::Y);
+            }
+            Command::Look => self.look(parameters),
+            Command::Go => {
+                self.leave_axis();
+                let place = vector(parameters, 0).map(Vec3::as_dvec3);
+                self.state.position = place.unwrap_or(self.state.position);
+            }
+            Command::Scale => self.state.scale = first.unwrap_or(self.state.scale),
+            Command::ScaleStep(sign) => {
+                let factor = first.filter(|&one| one != 0.0).unwrap_or(self.options.scale_step);
+                let factor = if sign > 0.0 { factor } else { 1.0 / factor };
+                self.state.scale = finite(self.state.scale * factor);
+            }
+            Command::BeginSubsystem => {
+                self.scales.push(self.state.scale);
+                let factor = parameters.get(1).copied().map_or(1.0, finite);
+                self.rescale(self.state.scale * factor);
+            }
+            Command::EndSubsystem => {
+                if let Some(scale) = self.scales.pop() {
+                    self.rescale(scale);
+                }
+            }
+            Command::Ball => self.ball(first),
+            Command::Disc(disc) => self.disc(disc, first),
             Command::Contour => self.contour(first),
+            Command::Sides => {
+                self.leave_axis();
+                self.state.sides = first.map_or(0, |sides| sides.clamp(3.0, 64.0) as u16);
+            }
+            Command::Texture => {
+                self.leave_axis();
+                self.state.texture = first.map_or(0, |texture| texture.max(0.0) as u16);
+            }
+            Command::BeginPatch | Command::PatchPoint | Command::DrawPatch => {
+                self.patch(command, parameters);
+            }
+            Command::Label => self.label(parameters),
+            Command::Cut if !self.options.past_cuts && first.is_none() => self.skipped = Some(0),
+            Command::CutIf if first == Some(1.0) => self.skipped = Some(0),
+            _ => self.growth(command, first, parameters),
+        }
+    }
+
+    /// What shapes axes over control points and how the turtle gives way.
+    fn growth(&mut self, command: Command, first: Option<f32>, parameters: &[f32]) {
+        match command {
+            Command::BeginAxis if self.is_cpfg() => {
+                self.begin_spline(Some(1.0), None);
+                self.control_point(None);
+                self.ignore_steps();
+            }
             Command::BeginAxis => {
                 self.leave_axis();
                 self.state.beginning = Some((self.state.width, self.state.color));
             }
+            Command::ContinueAxis => self.axis_point(first),
+            Command::EndAxis if self.is_cpfg() => {
+                self.axis_point(first);
+                self.end_spline();
+            }
             Command::EndAxis => self.leave_axis(),
+            Command::AxisTangents => {
+                if let Some(reaching) = first {
+                    let leaving = parameters.get(1).copied().map_or(reaching, finite);
+                    self.state.tangents = [reaching, leaving];
+                }
+            }
+            Command::RadiusTangents => self.radius_tangents(parameters),
             Command::TropismDirection => {
-                let direction = vector(parameters, 0).unwrap_or(self.state.tropism);
+                let direction = vector(parameters, 0).map(Vec3::as_dvec3);
+                let direction = direction.unwrap_or(self.state.tropism);
                 self.state.tropism = direction.normalize_or_zero();
             }
-            Command::Susceptibility => self.state.susceptibility = first.unwrap_or(0.0),
+            Command::Susceptibility => self.state.susceptibility = first.unwrap_or(0.0).into(),
+            Command::SusceptibilityStep => {
+                let more = self.state.susceptibility + f64::from(self.options.susceptibility_step);
+                self.state.susceptibility = first.map_or(more, f64::from);
+            }
+            Command::Elasticity(change) => self.elasticity(change, parameters),
+            Command::Untwist => {
+                let (from, up) = self.state.before;
+                let heading = self.state.axes.heading;
+                self.state.axes.carry(heading, from, up);
+            }
+            Command::KeepTwist => self.remember_twist(),
+            _ => {}
+        }
+    }
+
+    fn rotate(&mut self, command: Command, degrees: Option<f32>) {
+        let angle = degrees.map_or(self.angle, |degrees| self.angle_of(degrees));
+        let signed = |sign: f32| if sign < 0.0 { angle.reversed() } else { angle };
+        match command {
+            Command::Turn(sign) => self.state.axes.turn(signed(sign)),
+            Command::Pitch(sign) => self.state.axes.pitch(signed(sign)),
+            Command::Roll(sign) => self.state.axes.roll(signed(sign)),
+            _ => {}
+        }
+    }
+
+    /// Sine and cosine of an angle, from the table if it is there.
+    fn angle_of(&mut self, degrees: f32) -> Angle {
+        let bits = degrees.to_bits();
+        let place = (bits.wrapping_mul(0x9e37_79b9) >> 26) as usize;
+        if self.angles[place].0 != bits {
+            let round = !self.is_cpfg();
+            self.angles[place] = (bits, Angle::of_degrees(degrees, round));
+        }
+        self.angles[place].1
+    }
+
+    fn look(&mut self, parameters: &[f32]) {
+        let Some(heading) = vector(parameters, 0).map(Vec3::as_dvec3) else { return };
+        match vector(parameters, 3).map(Vec3::as_dvec3) {
+            Some(up) if self.is_cpfg() => self.state.axes = Axes::looking(heading, -up),
+            Some(up) => self.state.axes = Axes::looking(heading, up),
+            None if self.is_cpfg() => {
+                let (from, up) = self.state.before;
+                self.state.axes.carry(heading.normalize_or(DVec3::Y), from, up);
+            }
+            None => {}
+        }
+    }
+
+    fn elasticity(&mut self, change: Change, parameters: &[f32]) {
+        let number = parameters.first().copied().map_or(1.0, finite) as i64 - 1;
+        let Ok(index) = usize::try_from(number) else { return };
+        let Some(movement) = self.options.movements.get(index).filter(|_| index < MOVEMENTS) else {
+            return;
+        };
+        let amount = parameters.get(1).copied().map(finite);
+        let step = amount.unwrap_or(movement.elasticity_step);
+        let own = &mut self.state.elasticity[index];
+        match change {
+            Change::More => *own += step,
+            Change::Less => *own -= step,
+            Change::Set => *own = amount.unwrap_or(0.0),
+        }
+    }
+
+    fn remember_twist(&mut self) {
+        self.state.before = (self.state.axes.heading, self.state.axes.up);
+    }
+
+    fn rescale(&mut self, scale: f32) {
+        let scale = finite(scale);
+        if self.state.scale != 0.0 {
+            self.state.width = finite(self.state.width * (scale / self.state.scale));
+        }
+        self.state.scale = scale;
+    }
+
+    fn length(&self, first: Option<f32>) -> f64 {
+        f64::from(first.unwrap_or(self.options.step)) * f64::from(self.state.scale)
+    }
+
+    fn color(&mut self, change: i32, first: Option<f32>) {
+        let next = self.state.color.saturating_add(change * self.options.color_step);
+        let color = first.map_or(next, |color| color as i32);
+        self.state.color = if self.is_cpfg() { color.rem_euclid(256) } else { color };
+    }
+
+    fn push(&mut self) {
+        self.end_stroke();
+        self.stack.push(self.state);
+        self.splines.push(self.spline.clone());
+        self.leave_axis();
+        self.state.depth += 1;
+    }
+
+    fn pop(&mut self) {
+        self.end_stroke();
+        if let (Some(state), Some(spline)) = (self.stack.pop(), self.splines.pop()) {
+            self.state = state;
+            self.spline = spline;
         }
     }
 
     fn check(&self) -> Result<()> {
         let out = &self.out;
         let parts = out.segments.len() + self.corners + out.surfaces.len() + out.balls.len();
+        let parts = parts + out.discs.len() + out.patches.len() + out.labels.len();
         let limit = |what: &str, limit: usize| {
             Err(Error::Limit { what: what.into(), limit: limit.to_string() })
         };
         if parts > PART_LIMIT {
             return limit("number of segments, corners and surfaces", PART_LIMIT);
         }
-        if self.stack.len() + self.polygons.len() > DEPTH_LIMIT {
+        if self.stack.len() + self.polygons.len() + self.scales.len() > DEPTH_LIMIT {
             return limit("depth of brackets", DEPTH_LIMIT);
         }
         Ok(())
-    }
-
-    fn push(&mut self) {
-        self.stack.push(self.state);
-        self.leave_axis();
-        self.state.depth += 1;
-    }
-
-    /// What is drawn next begins a new axis that grows out of the present one.
-    fn leave_axis(&mut self) {
-        self.state.anchor = self.anchor();
-        self.state.axis = None;
-        self.state.beginning = None;
-    }
-
-    /// The place of the turtle on the plant.
-    fn anchor(&self) -> Option<Anchor> {
-        let on_axis = |axis: u32| Anchor { axis, node: self.out.axes[axis as usize].segments };
-        self.state.axis.map(on_axis).or(self.state.anchor)
-    }
-
-    fn draw(&mut self, length: f32) {
-        let state = &mut self.state;
-        let start = state.position;
-        let end = start + state.frame.heading * length;
-        if !end.is_finite() || length == 0.0 {
-            return;
-        }
-        let radius = state.width / 2.0;
-        let last = state.axis.map(|axis| self.out.axes[axis as usize].last);
-        let last = last.map(|index| &self.out.segments[index as usize]);
-        let (start_radius, start_color) = match (last, state.beginning.take()) {
-            (Some(segment), _) => (segment.end_radius, segment.color),
-            (None, Some((width, color))) => (width / 2.0, color),
-            (None, None) => (radius, state.color),
-        };
-        let index = self.out.segments.len() as u32;
-        let axis = state.axis.unwrap_or_else(|| {
-            self.out.axes.push(Axis {
-                parent: state.anchor,
-                contour: state.contour,
-                segments: 0,
-                last: index,
-            });
-            self.out.axes.len() as u32 - 1
-        });
-        self.out.axes[axis as usize].segments += 1;
-        self.out.axes[axis as usize].last = index;
-        self.out.segments.push(Segment {
-            start,
-            end,
-            start_radius,
-            end_radius: radius,
-            start_color,
-            color: state.color,
-            axis,
-            depth: state.depth,
-            left: state.frame.left,
-        });
-        state.axis = Some(axis);
-        state.position = end;
-        self.grow_towards_tropism();
-    }
-
-    fn grow_towards_tropism(&mut self) {
-        let State { tropism, susceptibility, .. } = self.state;
-        if susceptibility != 0.0 {
-            self.state.frame.bend(tropism, susceptibility);
-        }
-    }
-
-    fn go(&mut self, length: f32, corner: bool) {
-        let end = self.state.position + self.state.frame.heading * length;
-        if !end.is_finite() {
-            return;
-        }
-        self.leave_axis();
-        self.state.position = end;
-        if corner {
-            self.corner();
-        }
-    }
-
-    fn corner(&mut self) {
-        if let Some(polygon) = self.polygons.last_mut() {
-            polygon.push(self.state.position);
-            self.corners += 1;
-        }
-    }
-
-    fn end_polygon(&mut self) {
-        let Some(corners) = self.polygons.pop() else { return };
-        if corners.len() >= 3 {
-            let (color, anchor) = (self.state.color, self.anchor());
-            self.out.polygons.push(Polygon { corners, color, anchor });
-        }
-    }
-
-    fn surface(&mut self, name: char, parameters: &[f32]) {
-        let scale = match *parameters {
-            [] => Vec3::ONE,
-            [scale] => Vec3::splat(finite(scale)),
-            [left, ahead, ..] => {
-                let up = parameters.get(2).copied().unwrap_or(left);
-                Vec3::new(finite(left), finite(ahead), finite(up))
-            }
-        };
-        let State { position, frame, color, .. } = self.state;
-        let anchor = self.anchor();
-        self.out.surfaces.push(Surface { name, position, frame, scale, color, anchor });
-    }
-
-    fn ball(&mut self, radius: f32) {
-        let State { position: center, frame, color, .. } = self.state;
-        let anchor = self.anchor();
-        self.out.balls.push(Ball { center, radius, axis: frame.heading, color, anchor });
-    }
-
-    fn contour(&mut self, number: Option<f32>) {
-        let contour = match number.unwrap_or(0.0) as i32 {
-            1 => Contour::Ribbon,
-            2 => Contour::Ruffle,
-            _ => Contour::Round,
-        };
-        if contour != self.state.contour {
-            self.leave_axis();
-            self.state.contour = contour;
-        }
     }
 }
 

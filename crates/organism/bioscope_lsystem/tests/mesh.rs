@@ -83,7 +83,7 @@ fn normals_point_out_of_a_cylinder_and_into_a_tube() {
     }
     let tube = word("!(1)F(2)F(2)!(0.8)F(0.01)F(-1)F(-1)").mesh(&MeshOptions::default());
     let inner = tube.positions.iter().zip(&tube.normals).filter(|(position, _)| {
-        (position.y - 3.01).abs() < 0.01 && Vec3::new(position.x, 0.0, position.z).length() < 0.41
+        (position.y - 2.01).abs() < 0.01 && Vec3::new(position.x, 0.0, position.z).length() < 0.41
     });
     let inner: Vec<f32> = inner
         .map(|(position, normal)| normal.dot(Vec3::new(position.x, 0.0, position.z).normalize()))

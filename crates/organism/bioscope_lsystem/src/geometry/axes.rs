@@ -1,8 +1,8 @@
 //! Cylinders and ribbons along the axes.
 
-use bioscope_core::{Vec3, math};
+use bioscope_core::{Vec2, Vec3, math};
 
-use super::{Binding, Builder, Layout, Vertex};
+use super::{Binding, Builder, Layout, MOST_SIDES, Vertex};
 use crate::{Interpretation, interpretation::Contour};
 
 /// How far the edge of a ruffled ribbon is bent up and down, in half widths.
@@ -33,14 +33,14 @@ pub(super) struct Line {
 }
 
 impl Line {
-    /// Takes over the nodes of an axis.
-    pub fn read(&mut self, interpretation: &Interpretation, layout: &Layout, axis: u32) {
+    /// Takes over the nodes of an axis; if it `merges`, without those on straight pieces between others.
+    pub fn read(&mut self, drawn: &Interpretation, layout: &Layout, axis: u32, merges: bool) {
         let (start, end) = (layout.starts[axis as usize], layout.starts[axis as usize + 1]);
         self.axis = Some(axis);
         self.base = layout.bases[axis as usize];
         self.nodes.clear();
         for index in start..end {
-            let segment = &interpretation.segments[layout.list[index] as usize];
+            let segment = &drawn.segments[layout.list[index] as usize];
             let node = Node {
                 position: segment.end,
                 radius: segment.end_radius,
@@ -57,10 +57,25 @@ impl Line {
                     arc: 0.0,
                     ..node
                 });
+            } else if merges && self.is_straight_to(&node) {
+                self.nodes.pop();
             }
             self.nodes.push(node);
         }
         self.direct();
+    }
+
+    /// Whether the last node lies so evenly between the one before it and `next` that nobody misses it.
+    fn is_straight_to(&self, next: &Node) -> bool {
+        let [.., before, last] = &self.nodes[..] else { return false };
+        if before.color != last.color || last.color != next.color {
+            return false;
+        }
+        let (arriving, leaving) = (last.position - before.position, next.position - last.position);
+        let (a, b) = (arriving.length(), leaving.length());
+        let aligned = arriving.dot(leaving) >= a * b * (1.0 - 1e-7);
+        let radius = before.radius + (next.radius - before.radius) * (a / (a + b).max(1e-30));
+        aligned && (radius - last.radius).abs() <= 1e-4 * last.radius
     }
 
     /// A line of these nodes at one place of the plant.
@@ -72,18 +87,17 @@ impl Line {
 
     /// Finds the tangents: at each node the mean of the directions before and after it.
     fn direct(&mut self) {
-        let positions: Vec<Vec3> = self.nodes.iter().map(|node| node.position).collect();
-        let direction = |a: usize, b: usize| (positions[b] - positions[a]).normalize_or_zero();
-        let last = positions.len().saturating_sub(1);
-        let mut before = Vec3::Y;
-        for (index, node) in self.nodes.iter_mut().enumerate() {
-            let arriving = if index > 0 { direction(index - 1, index) } else { Vec3::ZERO };
-            let leaving = if index < last { direction(index, index + 1) } else { Vec3::ZERO };
+        let (mut before, mut arriving) = (Vec3::Y, Vec3::ZERO);
+        for index in 0..self.nodes.len() {
+            let leaving = self.nodes.get(index + 1).map_or(Vec3::ZERO, |next| {
+                (next.position - self.nodes[index].position).normalize_or_zero()
+            });
             // Where the axis turns back on itself the mean is nothing but rounding.
             let mean = arriving + leaving;
             let mean = if mean.length_squared() < 0.04 { arriving } else { mean };
-            node.tangent = mean.normalize_or(before);
-            before = node.tangent;
+            before = mean.normalize_or(before);
+            self.nodes[index].tangent = before;
+            arriving = leaving;
         }
     }
 
@@ -93,102 +107,121 @@ impl Line {
 
     /// Change of the radius per length at a node.
     fn slope(&self, index: usize) -> f32 {
+        const STEEPEST: f32 = 1e4;
         let before = &self.nodes[index.saturating_sub(1)];
         let after = &self.nodes[(index + 1).min(self.nodes.len() - 1)];
+        let change = after.radius - before.radius;
         let way = before.position.distance(after.position);
-        if way > 0.0 { (after.radius - before.radius) / way } else { 0.0 }
+        if change == 0.0 || way <= 0.0 { 0.0 } else { (change / way).clamp(-STEEPEST, STEEPEST) }
+    }
+
+    /// Length of texture once around its base.
+    fn girth(&self) -> f32 {
+        (math::TAU * self.nodes[0].radius).max(1e-4)
     }
 }
 
+/// How a ring lies: across it, over it, and how its radius changes.
+#[derive(Clone, Copy)]
+struct Ring {
+    across: Vec3,
+    over: Vec3,
+    slope: f32,
+    girth: f32,
+    sides: u32,
+}
+
 impl Builder<'_> {
-    /// Adds an axis.
-    pub(super) fn axis(&mut self, line: &Line, contour: Contour) {
+    /// Adds an axis; `sides` 0 leaves its sides to its radius.
+    pub(super) fn axis(&mut self, line: &Line, contour: Contour, sides: u16) {
         if line.nodes.len() < 2 {
             return;
         }
+        let thickest = || line.nodes.iter().map(|node| node.radius).fold(0.0, f32::max);
+        let own = |builder: &Self| match sides {
+            0 => builder.sides_of(thickest()),
+            sides => u32::from(sides).clamp(3, MOST_SIDES),
+        };
         match contour {
-            Contour::Round => self.tube(line, self.sides(line), line.base == 0.0),
+            Contour::Round => self.tube(line, own(self), line.base == 0.0),
             Contour::Ribbon => self.ribbon(line, 0.0),
             Contour::Ruffle => self.ribbon(line, RUFFLE),
+            Contour::Profile(number) => {
+                let sides = if sides == 0 { self.options.sides } else { own(self) };
+                self.profile(line, number, sides.clamp(3, MOST_SIDES));
+            }
         }
-    }
-
-    fn sides(&self, line: &Line) -> u32 {
-        let radius = line.nodes.iter().map(|node| node.radius).fold(0.0, f32::max);
-        let share = if self.thickest > 0.0 { radius / self.thickest } else { 1.0 };
-        let sides = (self.options.sides as f32 * math::sqrt(share.clamp(0.0, 1.0))).ceil();
-        (sides as u32).clamp(3, self.options.sides.max(3))
     }
 
     /// Adds a generalized cylinder with a rounded tip and, if asked for, a closed base. Where the
     /// axis turns back on itself (`F(1)F(-1)`, for a hollow tube) its surface is the inner one.
     pub(super) fn tube(&mut self, line: &Line, sides: u32, closed: bool) {
+        self.prepare_circle(sides);
         let first = &line.nodes[0];
-        let girth = (math::TAU * first.radius).max(1e-4);
-        let mut across = perpendicular(first.left, first.tangent);
-        let mut over = first.tangent.cross(across);
+        let across = perpendicular(first.left, first.tangent);
+        let over = first.tangent.cross(across);
+        let mut ring = Ring { across, over, slope: 0.0, girth: line.girth(), sides };
         let mut below = None;
         for (index, node) in line.nodes.iter().enumerate() {
-            across = perpendicular(across, node.tangent);
-            let side = if node.tangent.cross(across).dot(over) < 0.0 { -1.0 } else { 1.0 };
-            over = node.tangent.cross(across) * side;
-            let slope = line.slope(index);
-            let ring = self.ring(line, node, [across, over], slope, girth, sides);
+            ring.across = perpendicular(ring.across, node.tangent);
+            let over = node.tangent.cross(ring.across);
+            ring.over = if over.dot(ring.over) < 0.0 { -over } else { over };
+            ring.slope = line.slope(index);
+            let above = self.ring(line, node, &ring);
             match below {
-                Some(below) => self.band(below, ring, sides),
-                None if closed => self.close(line, node, ring, -1.0, sides),
+                Some(below) => self.band(below, above, sides),
+                None if closed => self.close(line, node, above, -1.0, sides),
                 None => {}
             }
-            below = Some(ring);
+            below = Some(above);
         }
-        let (Some(ring), Some(tip)) = (below, line.nodes.last()) else { return };
+        let (Some(below), Some(tip)) = (below, line.nodes.last()) else { return };
         let swelling = tip.radius * 0.6;
         let position = tip.position + tip.tangent * swelling;
         let (radius, arc) = (tip.radius * 0.7, tip.arc + swelling);
-        if sides > 4 && tip.radius > 0.3 * first.radius {
+        if sides > 4 && self.has_domes && tip.radius > 0.3 * first.radius {
             let dome = Node { position, radius, arc, ..*tip };
-            let upper = self.ring(line, &dome, [across, over], -1.2, girth, sides);
-            self.band(ring, upper, sides);
+            let upper = self.ring(line, &dome, &Ring { slope: -1.2, ..ring });
+            self.band(below, upper, sides);
             self.close(line, &dome, upper, 0.5, sides);
         } else {
-            self.close(line, tip, ring, 0.8, sides);
+            self.close(line, tip, below, 0.8, sides);
         }
     }
 
     /// Adds a ring of vertices; the number of its first. The seam has two vertices at one place.
-    fn ring(
-        &mut self,
-        line: &Line,
-        node: &Node,
-        [across, over]: [Vec3; 2],
-        slope: f32,
-        girth: f32,
-        sides: u32,
-    ) -> u32 {
+    fn ring(&mut self, line: &Line, node: &Node, ring: &Ring) -> u32 {
+        let Ring { across, over, slope, girth, sides } = *ring;
+        let circle = &self.circles[sides as usize];
+        let mesh = &mut self.mesh;
+        let first = mesh.positions.len() as u32;
+        let (wide, high) = (across * node.radius, over * node.radius);
+        let place = |&[cosine, sine]: &[f32; 2]| node.position + wide * cosine + high * sine;
+        mesh.positions.extend(circle.iter().map(place));
+        // Across, over and the tangent are perpendicular, so one length does for all normals.
         let facing = node.tangent.cross(across).dot(over).signum();
-        let first = self.mesh.positions.len() as u32;
-        for side in 0..=sides {
-            // The seam must meet itself to the last bit.
-            let angle = math::TAU * (side % sides) as f32 / sides as f32;
-            let outward = across * math::cos(angle) + over * math::sin(angle);
-            self.vertex(Vertex {
-                position: node.position + outward * node.radius,
-                normal: (outward - node.tangent * slope).normalize_or(outward) * facing,
-                uv: [side as f32 / sides as f32, node.arc / girth],
-                color: node.color,
-                binding: line.binding(node),
-            });
+        let scale = facing / (1.0 + slope * slope).sqrt();
+        let (wide, high, ahead) = (across * scale, over * scale, node.tangent * (-slope * scale));
+        let normal = |&[cosine, sine]: &[f32; 2]| ahead + wide * cosine + high * sine;
+        mesh.normals.extend(circle.iter().map(normal));
+        let (share, v) = (1.0 / sides as f32, node.arc / girth);
+        mesh.uvs.extend((0..=sides).map(|side| [side as f32 * share, v]));
+        let count = sides as usize + 1;
+        let color = self.options.palette.color(node.color);
+        mesh.colors.extend(std::iter::repeat_n(color, count));
+        if self.bends {
+            self.bindings.extend(std::iter::repeat_n(line.binding(node), count));
         }
         first
     }
 
     /// Joins two rings.
     fn band(&mut self, below: u32, above: u32, sides: u32) {
-        for side in 0..sides {
-            let (a, b) = (below + side, above + side);
-            self.mesh.triangles.push([a, a + 1, b]);
-            self.mesh.triangles.push([a + 1, b + 1, b]);
-        }
+        let corners = |index: u32| {
+            let (a, b) = (below + index / 2, above + index / 2);
+            if index % 2 == 0 { [a, a + 1, b] } else { [a + 1, b + 1, b] }
+        };
+        self.mesh.triangles.extend((0..2 * sides).map(corners));
     }
 
     /// Closes a ring by a point `height` radii ahead of it (behind it if negative).
@@ -204,6 +237,59 @@ impl Builder<'_> {
         for side in 0..sides {
             let (a, b) = (ring + side, ring + side + 1);
             self.mesh.triangles.push(if height < 0.0 { [b, a, point] } else { [a, b, point] });
+        }
+    }
+
+    /// Adds an axis whose cross-section is a contour, x of which is the turtle's down and y its right.
+    fn profile(&mut self, line: &Line, number: i32, sides: u32) {
+        let Some(shape) = self.drawn.shapes.contours.get(&number) else { return };
+        let vertices = self.contours.entry((number, sides)).or_insert_with(|| shape.sampled(sides));
+        let (vertices, girth) = (vertices.clone(), line.girth());
+        let start = self.mesh.triangles.len();
+        let mut below: Option<u32> = None;
+        for (index, node) in line.nodes.iter().enumerate() {
+            let left = perpendicular(node.left, node.tangent);
+            let up = node.tangent.cross(left);
+            let slope = line.slope(index);
+            let first = self.mesh.positions.len() as u32;
+            for vertex in &vertices {
+                let out = |at: Vec2| -up * at.x - left * at.y;
+                let place = out(vertex.point) + node.tangent * vertex.ahead;
+                let normal = out(vertex.normal) - node.tangent * slope;
+                self.vertex(Vertex {
+                    position: node.position + place * node.radius,
+                    normal: normal.normalize_or(node.tangent),
+                    uv: [vertex.way, node.arc / girth],
+                    color: node.color,
+                    binding: line.binding(node),
+                });
+            }
+            if let Some(below) = below {
+                self.band(below, first, sides);
+            }
+            below = Some(first);
+        }
+        self.face_outward(start);
+        if shape.closed
+            && let (Some(last), Some(tip)) = (below, line.nodes.last())
+        {
+            let (start, count) = (self.mesh.triangles.len(), vertices.len() as u32);
+            self.close(line, tip, last, 0.01, count - 1);
+            self.face_outward(start);
+        }
+    }
+
+    /// Turns all triangles from `start` on over if those that stand for them face against their normals.
+    fn face_outward(&mut self, start: usize) {
+        let mesh = &mut self.mesh;
+        let facing = |corners: &[u32; 3]| {
+            let [a, b, c] = corners.map(|index| mesh.positions[index as usize]);
+            let normals: Vec3 = corners.iter().map(|&index| mesh.normals[index as usize]).sum();
+            (b - a).cross(c - a).dot(normals)
+        };
+        let sum: f32 = mesh.triangles[start..].iter().take(400).map(facing).sum();
+        if sum < 0.0 {
+            mesh.triangles[start..].iter_mut().for_each(|corners| corners.swap(1, 2));
         }
     }
 
@@ -265,5 +351,10 @@ impl Builder<'_> {
 /// The unit vector nearest to `vector` that is perpendicular to the unit vector `axis`.
 pub(super) fn perpendicular(vector: Vec3, axis: Vec3) -> Vec3 {
     let rest = vector - axis * axis.dot(vector);
-    rest.try_normalize().unwrap_or_else(|| axis.any_orthonormal_vector())
+    let Some(unit) = rest.try_normalize() else { return axis.any_orthonormal_vector() };
+    if rest.length_squared() > 0.01 * vector.length_squared() {
+        return unit;
+    }
+    // What little was left of the vector has few digits.
+    (unit - axis * axis.dot(unit)).try_normalize().unwrap_or_else(|| axis.any_orthonormal_vector())
 }

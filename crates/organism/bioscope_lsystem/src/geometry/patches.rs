@@ -6,7 +6,8 @@ use super::{
     Binding, Builder, Vertex,
     axes::{Line, Node, perpendicular},
 };
-use crate::interpretation::{Anchor, Ball, Polygon, Surface};
+use crate::Tessellation;
+use crate::interpretation::{Anchor, Ball, Basis, Disc, Patch, Polygon, Surface};
 
 /// Control points of the leaf that every `~x` stands for, as a bicubic Bézier patch: left, ahead
 /// and up of the turtle, one row per step ahead; of length 1 and about a third as wide.
@@ -16,8 +17,8 @@ const LEAF: [[[f32; 3]; 4]; 4] = [
     [[0.24, 0.72, 0.14], [0.08, 0.75, 0.08], [-0.08, 0.75, 0.08], [-0.24, 0.72, 0.14]],
     [[0.0, 1.0, 0.0], [0.0, 1.0, 0.0], [0.0, 1.0, 0.0], [0.0, 1.0, 0.0]],
 ];
-/// Quads of a leaf across and along.
-const LEAF_QUADS: (u32, u32) = (2, 5);
+/// Quads of a leaf along and across.
+const LEAF_QUADS: [u32; 2] = [5, 2];
 /// Corners of a polygon that are cut off one by one; larger ones are taken as convex.
 const EAR_LIMIT: usize = 100;
 
@@ -54,35 +55,76 @@ impl Builder<'_> {
 
     pub(super) fn surface(&mut self, surface: &Surface) {
         let binding = self.binding(surface.anchor);
-        let (vertex, triangle) = (self.mesh.positions.len(), self.mesh.triangles.len());
-        let (across, along) = LEAF_QUADS;
-        for row in 0..=along {
-            for column in 0..=across {
-                let (u, v) = (column as f32 / across as f32, row as f32 / along as f32);
-                let local = bezier(&LEAF, u, v) * surface.scale;
-                let frame = &surface.frame;
-                let way = frame.left * local.x + frame.heading * local.y + frame.up * local.z;
+        let drawn = self.drawn;
+        let shape = drawn.shapes.surfaces.get(&surface.name);
+        let leaf = std::mem::take(&mut self.leaf);
+        let mesh = shape.map_or(&leaf, |shape| &shape.mesh);
+        let Surface { frame, scale, .. } = surface;
+        let turned = |v: Vec3| frame.left * v.x + frame.heading * v.y + frame.up * v.z;
+        let inverse = Vec3::new(scale.y * scale.z, scale.z * scale.x, scale.x * scale.y);
+        let first = self.mesh.positions.len() as u32;
+        for ((&place, &normal), &uv) in mesh.positions.iter().zip(&mesh.normals).zip(&mesh.uvs) {
+            let local = place * *scale;
+            self.vertex(Vertex {
+                position: surface.position + turned(local),
+                normal: turned(normal * inverse).normalize_or(frame.up).normalize_or(frame.up),
+                uv,
+                color: surface.color,
+                binding: Binding { path: binding.path + local.y.abs(), ..binding },
+            });
+        }
+        let mirrored = scale.x * scale.y * scale.z < 0.0;
+        self.mesh.triangles.extend(mesh.triangles.iter().map(|corners| {
+            let [a, b, c] = corners.map(|corner| corner + first);
+            if mirrored { [a, c, b] } else { [a, b, c] }
+        }));
+        self.leaf = leaf;
+    }
+
+    pub(super) fn patch(&mut self, patch: &Patch) {
+        let binding = self.binding(patch.anchor);
+        let mut mesh = Tessellation::default();
+        mesh.add_patch(&patch.points, patch.basis, patch.quads);
+        let first = self.mesh.positions.len() as u32;
+        for ((&position, &normal), &uv) in mesh.positions.iter().zip(&mesh.normals).zip(&mesh.uvs) {
+            self.vertex(Vertex { position, normal, uv, color: patch.color, binding });
+        }
+        let moved = mesh.triangles.iter().map(|corners| corners.map(|corner| corner + first));
+        self.mesh.triangles.extend(moved);
+    }
+
+    pub(super) fn disc(&mut self, disc: &Disc) {
+        const SIDES: u32 = 24;
+        if disc.radius <= 0.0 {
+            return;
+        }
+        self.prepare_circle(SIDES);
+        let binding = self.binding(disc.anchor);
+        let across = disc.normal.any_orthonormal_vector();
+        let over = disc.normal.cross(across);
+        let inner = disc.rim.map_or(0.0, |rim| (disc.radius - rim).max(0.0));
+        let first = self.mesh.positions.len() as u32;
+        for side in 0..=SIDES as usize {
+            let [cosine, sine] = self.circles[SIDES as usize][side];
+            for radius in [inner, disc.radius] {
+                let out = (across * cosine + over * sine) * radius;
+                let share = 0.5 * radius / disc.radius;
                 self.vertex(Vertex {
-                    position: surface.position + way,
-                    normal: Vec3::ZERO,
-                    uv: [u, v],
-                    color: surface.color,
-                    binding: Binding { path: binding.path + local.y.abs(), ..binding },
+                    position: disc.center + out,
+                    normal: disc.normal,
+                    uv: [0.5 + share * cosine, 0.5 + share * sine],
+                    color: disc.color,
+                    binding,
                 });
             }
         }
-        for row in 0..along {
-            for column in 0..across {
-                let a = vertex as u32 + row * (across + 1) + column;
-                let b = a + across + 1;
-                self.mesh.triangles.push([a, b, a + 1]);
-                // The tip of the leaf is one point.
-                if row + 1 < along {
-                    self.mesh.triangles.push([a + 1, b, b + 1]);
-                }
+        for side in 0..SIDES {
+            let a = first + 2 * side;
+            self.mesh.triangles.push([a, a + 1, a + 3]);
+            if inner > 0.0 {
+                self.mesh.triangles.push([a, a + 3, a + 2]);
             }
         }
-        self.smooth_normals(vertex, triangle);
     }
 
     pub(super) fn ball(&mut self, ball: &Ball) {
@@ -153,19 +195,11 @@ fn is_inside(point: Vec2, [a, b, c]: [Vec2; 3]) -> bool {
     turn(a, b, point) >= 0.0 && turn(b, c, point) >= 0.0 && turn(c, a, point) >= 0.0
 }
 
-fn bezier(points: &[[[f32; 3]; 4]; 4], u: f32, v: f32) -> Vec3 {
-    let weights = |t: f32| {
-        let s = 1.0 - t;
-        [s * s * s, 3.0 * s * s * t, 3.0 * s * t * t, t * t * t]
-    };
-    let (across, along) = (weights(u), weights(v));
-    let mut sum = Vec3::ZERO;
-    for (row, weight) in points.iter().zip(along) {
-        for (point, other) in row.iter().zip(across) {
-            sum += Vec3::from_array(*point) * (weight * other);
-        }
-    }
-    sum
+/// The leaf that every `~x` without a file stands for.
+pub(super) fn leaf() -> Tessellation {
+    let mut mesh = Tessellation::default();
+    mesh.add_patch(&LEAF.map(|row| row.map(Vec3::from_array)), Basis::Bezier, LEAF_QUADS);
+    mesh
 }
 
 #[cfg(test)]

@@ -98,7 +98,8 @@ pub(super) fn shape(
     if !(1..=255).contains(&options.joints) {
         return Err(Error::value("joints", options.joints, "1 to 255"));
     }
-    let Builder { mut mesh, bindings, layout, .. } = Builder::build(interpretation, mesh);
+    let Builder { mut mesh, bindings, layout, .. } =
+        Builder::build(interpretation, mesh, None, true);
     let skeleton = Skeleton::new(interpretation, &layout, options);
     let bound = bindings.iter().map(|binding| skeleton.weights(binding));
     let (indices, weights) = bound.unzip();

@@ -2,7 +2,7 @@
 
 use bioscope_core::{Result, Vec3};
 
-use super::{Frame, Turtle, TurtleOptions, command};
+use super::{Frame, Pose, Turtle, TurtleOptions};
 use crate::ModuleString;
 
 /// The turtle at one module, before it obeys it.
@@ -23,22 +23,18 @@ impl Turtle<'_> {
         options: &TurtleOptions,
         wanted: &[bool],
     ) -> Result<Vec<Stance>> {
-        let mut turtle = Turtle::new(options);
         let kinds = string.alphabet().kinds();
-        let commands: Vec<_> = kinds.iter().map(|kind| command(&kind.symbol, options)).collect();
+        let mut turtle = Turtle::walking(string.alphabet(), options);
         let mut rest = string.parameters();
         let mut stances = Vec::new();
         for (module, &code) in string.kinds().iter().enumerate() {
             let (parameters, after) = rest.split_at(kinds[code as usize].arity as usize);
             rest = after;
             if wanted[code as usize] {
-                let state = &turtle.state;
-                let (position, frame) = (state.position, state.frame);
-                let (width, color) = (state.width, state.color);
+                let Pose { position, frame, width, color } = turtle.pose();
                 stances.push(Stance { module, position, frame, width, color });
             }
-            turtle.obey(commands[code as usize], parameters);
-            turtle.check()?;
+            turtle.read(code, parameters)?;
         }
         Ok(stances)
     }
