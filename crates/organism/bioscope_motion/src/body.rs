@@ -4,6 +4,8 @@ use bioscope_core::{Intention, Parameters, Random, Result, SoundEvent, Value, Ve
 use bioscope_dynamics::Influence;
 use bioscope_geometry::Transform;
 
+use crate::MuscleSwimmer;
+
 /// One animal's body: moves as its mind wants and its nature permits.
 pub trait Body: Send + Sync {
     /// Word under which saved worlds find the constructor: `swimmer`.
@@ -11,6 +13,12 @@ pub trait Body: Send + Sync {
 
     /// Moves and grows by `dt` seconds as the mind intends, under what acts at its place.
     fn advance(&mut self, intention: &Intention, influence: &Influence, dt: f32) -> Result<()>;
+
+    /// The same body if muscles drive it, so that many are advanced side by side with
+    /// [`MuscleSwimmer::advance_together`].
+    fn muscles(&mut self) -> Option<&mut MuscleSwimmer> {
+        None
+    }
 
     /// Where it is, how it is turned (+Z ahead, +X left, +Y up) and how its mesh is scaled.
     fn placement(&self) -> Transform;

@@ -137,6 +137,11 @@ impl Spine {
         self.masses.len() + self.hinges.len()
     }
 
+    /// Where the links begin and the last ends, as shares of the length: 0, …, 1.
+    pub fn cuts(&self) -> &[f32] {
+        &self.cuts
+    }
+
     /// Number of links.
     pub fn link_count(&self) -> usize {
         self.masses.len()
@@ -321,6 +326,11 @@ pub fn spine_pose(spine: &Spine, swim: &SwimState, out: &mut [Transform]) {
     for pose in &mut out[..spine.link_count()] {
         pose.position -= drift;
     }
+    hinge_poses(spine, swim, out);
+}
+
+/// Writes the poses of the fins, which `out` has after those of the links that carry them.
+pub(crate) fn hinge_poses(spine: &Spine, swim: &SwimState, out: &mut [Transform]) {
     for (number, hinge) in spine.hinges.iter().enumerate() {
         let carrier = spine.carrier(hinge);
         let rest = Vec3::new(0.0, 0.0, spine.along(spine.cuts[carrier]));

@@ -1,0 +1,190 @@
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use bioscope_core::{Intention, Quat, Random, Result, Value, Vec3, math, state};
+use bioscope_dynamics::Influence;
+use bioscope_dynamics::spring_body::fish::CENTER_LINE;
+use bioscope_geometry::Transform;
+
+use super::pose::CenterLine;
+use crate::Body;
+use crate::fish::{Command, FishModel, Swimmers};
+use crate::undulation::{Spine, SwimState, hinge_poses};
+
+/// A fish that swims by its muscles; see the [module](super).
+#[derive(Clone, Debug)]
+pub struct MuscleSwimmer {
+    preset: String,
+    fish: Swimmers,
+    spine: Arc<Spine>,
+}
+
+impl MuscleSwimmer {
+    /// A fish of the form of this spine and the body of a preset (`calibrated` or `published`), at rest at the
+    /// origin, looking along +Z.
+    ///
+    /// # Errors
+    /// For unknown presets.
+    pub fn new(spine: Arc<Spine>, preset: &str) -> Result<Self> {
+        let cruise = f64::from(spine.gait().cruise);
+        let mut fish = Swimmers::new(FishModel::named(preset)?, cruise)?;
+        fish.add([0.0; 3], Quat::IDENTITY, f64::from(spine.length()))?;
+        Ok(Self { preset: preset.to_owned(), fish, spine })
+    }
+
+    /// The fish that [`save`](Body::save) stored.
+    ///
+    /// # Errors
+    /// For damaged bytes.
+    pub fn restore(spine: Arc<Spine>, bytes: &[u8]) -> Result<Self> {
+        let (preset, fish): (String, Vec<u8>) = state::from_bytes("muscle_swimmer", bytes)?;
+        let fish = Swimmers::restore_one(FishModel::named(&preset)?, &fish)?;
+        Ok(Self { preset, fish, spine })
+    }
+
+    /// Takes up what the mind intends and what acts on it; the next [`advance`](Self::advance_together) does it.
+    ///
+    /// # Errors
+    /// For intentions that are not finite.
+    pub fn obey(&mut self, intention: &Intention, influence: &Influence, dt: f32) -> Result<()> {
+        let length = self.fish.length(0) as f32;
+        let speed = intention.speed * length;
+        self.fish.command(
+            0,
+            Command {
+                speed: speed.max(0.0),
+                steer: Some(intention.turn()),
+                climb: intention.pitch(),
+                brake: intention.brake,
+                backward: (-speed).max(0.0),
+            },
+        )?;
+        self.fish.set_flow(0, influence.flow);
+        if influence.force != Vec3::ZERO {
+            self.fish.kick(0, influence.force * dt);
+        }
+        Ok(())
+    }
+
+    /// Advances all by `dt` seconds; they have been told what to do.
+    pub fn advance_together(bodies: &mut [&mut Self], dt: f32) {
+        let mut fishes: Vec<_> = bodies.iter_mut().map(|body| &mut body.fish).collect();
+        Swimmers::advance_together(&mut fishes, f64::from(dt));
+    }
+
+    /// Size relative to that of the spine.
+    fn scale(&self) -> f32 {
+        self.fish.length(0) as f32 / self.spine.length()
+    }
+
+    /// Shares of the length at rest of the points of the center line.
+    fn shares(&self) -> [f32; CENTER_LINE.len()] {
+        let nodes = &self.fish.model().mechanics.anatomy.nodes;
+        CENTER_LINE.map(|ring| -nodes[ring[0]][2] as f32)
+    }
+
+    /// Puts one of this length in its place, at rest.
+    fn replace(&mut self, position: Vec3, rotation: Quat, length: f64) {
+        let Ok(mut fish) =
+            Swimmers::new(self.fish.model().clone(), f64::from(self.spine.gait().cruise))
+        else {
+            return;
+        };
+        let place = position.to_array().map(f64::from);
+        if fish.add(place, rotation, length).is_ok() {
+            self.fish = fish;
+        }
+    }
+}
+
+impl Body for MuscleSwimmer {
+    fn kind(&self) -> &str {
+        "muscle_swimmer"
+    }
+
+    fn advance(&mut self, intention: &Intention, influence: &Influence, dt: f32) -> Result<()> {
+        self.obey(intention, influence, dt)?;
+        self.fish.advance(f64::from(dt));
+        Ok(())
+    }
+
+    fn muscles(&mut self) -> Option<&mut MuscleSwimmer> {
+        Some(self)
+    }
+
+    fn placement(&self) -> Transform {
+        let placement = self.fish.placement(0);
+        Transform::new(placement.position, placement.rotation(), self.scale())
+    }
+
+    fn put(&mut self, position: Vec3, heading: Vec3) {
+        let yaw = math::atan2(heading.x, heading.z);
+        let half = 0.5 * yaw;
+        let rotation = Quat::from_xyzw(0.0, math::sin(half), 0.0, math::cos(half)).normalize();
+        self.replace(position, rotation, self.fish.length(0));
+    }
+
+    fn vary(&mut self, variation: f32, random: &mut Random) {
+        let length = self.fish.length(0) * f64::from(1.0 + random.range(-variation, variation));
+        let phase = random.uniform();
+        let placement = self.placement();
+        self.replace(placement.position, placement.rotation(), length);
+        self.fish.motor_mut(0).phase = phase;
+    }
+
+    fn shift(&mut self, offset: Vec3) {
+        if offset == Vec3::ZERO {
+            return;
+        }
+        self.fish.shift(0, offset);
+        // What it ran into takes the part of its motion that went into it.
+        let out = offset.normalize_or_zero();
+        let into = self.fish.velocity(0).dot(out).min(0.0);
+        self.fish.kick(0, -out * into);
+    }
+
+    fn velocity(&self) -> Vec3 {
+        self.fish.velocity(0)
+    }
+
+    fn length(&self) -> f32 {
+        self.fish.length(0) as f32
+    }
+
+    fn joint_count(&self) -> usize {
+        self.spine.joint_count()
+    }
+
+    fn pose(&self, out: &mut [Transform]) {
+        let line = CenterLine::new(&self.fish.local_nodes(0), self.shares());
+        line.pose(&self.spine, out);
+        let motor = self.fish.motor(0);
+        let swim = SwimState {
+            fan: motor.fins.beat,
+            fanning: motor.fins.spread,
+            bend: [0.5 * motor.bend; 2],
+            ..SwimState::default()
+        };
+        hinge_poses(&self.spine, &swim, out);
+    }
+
+    fn energy_spent(&self) -> f32 {
+        let mass = self.fish.model().mass(self.fish.length(0));
+        (self.fish.work(0) / mass) as f32
+    }
+
+    fn values(&self) -> BTreeMap<String, Value> {
+        let motor = self.fish.motor(0);
+        let beat = f64::from(motor.frequency) / self.fish.time_unit();
+        BTreeMap::from([
+            (String::from("speed_m_per_s"), self.velocity().length().into()),
+            (String::from("tail_beat_hz"), beat.into()),
+            (String::from("bend"), motor.bend.into()),
+            (String::from("energy_j"), self.fish.energy(0).into()),
+        ])
+    }
+
+    fn save(&self) -> Result<Vec<u8>> {
+        Ok(state::to_bytes(&(&self.preset, self.fish.save_one()?)))
+    }
+}
