@@ -125,6 +125,8 @@ impl LSystem {
 /// Tells the random numbers of the parts of a step apart.
 const REWRITING: u64 = 0;
 const APPEARANCE: u64 = 2 << 20;
+/// How many instructions of loops a model may run: a few seconds.
+const LOOPS: u64 = 2_000_000_000;
 /// What a step costs at least, in operations.
 const STEP_COST: u64 = 256;
 
@@ -173,7 +175,7 @@ impl<'a> Derivation<'a> {
             None => Randomness::reference(system.systems[0].homomorphism_seed),
         };
         let length = f64::from(system.derivation_length);
-        let fuel = options.limits.operations;
+        let fuel = options.limits.operations.min(LOOPS);
         let mut machine = Machine::new(system.pool.clone(), length, random, fuel);
         machine.functions = options.functions.take();
         machine.output.folder = options.folder.take();

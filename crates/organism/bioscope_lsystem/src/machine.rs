@@ -161,9 +161,97 @@ pub(crate) enum Instruction {
     Return {
         from: Register,
     },
+    /// Ends the program with 0, unless the comparison holds.
+    Require {
+        comparison: Comparison,
+        a: Register,
+        b: Register,
+    },
+}
+
+/// A comparison of two numbers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Comparison {
+    Less,
+    LessEqual,
+    Greater,
+    GreaterEqual,
+    Equal,
+    Unequal,
+}
+
+impl Comparison {
+    #[inline]
+    fn holds(self, a: f64, b: f64) -> bool {
+        match self {
+            Self::Less => a < b,
+            Self::LessEqual => a <= b,
+            Self::Greater => a > b,
+            Self::GreaterEqual => a >= b,
+            Self::Equal => a == b,
+            Self::Unequal => a != b,
+        }
+    }
 }
 
 impl Instruction {
+    /// The register that it writes; scanning writes temporary ones only.
+    fn target(&self) -> Option<Register> {
+        match *self {
+            Self::Move { to, .. }
+            | Self::Constant { to, .. }
+            | Self::Add { to, .. }
+            | Self::Subtract { to, .. }
+            | Self::Multiply { to, .. }
+            | Self::Less { to, .. }
+            | Self::Greater { to, .. }
+            | Self::Equal { to, .. }
+            | Self::Unary { to, .. }
+            | Self::Binary { to, .. }
+            | Self::Index { to, .. }
+            | Self::Load { to, .. }
+            | Self::Call { to, .. }
+            | Self::Open { to, .. } => Some(to),
+            _ => None,
+        }
+    }
+
+    /// The comparison that it makes, with its operands and target.
+    fn comparison(&self) -> Option<(Comparison, Register, Register, Register)> {
+        let (comparison, to, a, b) = match *self {
+            Self::Less { to, a, b } => (Comparison::Less, to, a, b),
+            Self::Greater { to, a, b } => (Comparison::Greater, to, a, b),
+            Self::Equal { to, a, b } => (Comparison::Equal, to, a, b),
+            Self::Binary { operation, to, a, b } => {
+                let comparison = match operation {
+                    Binary::LessEqual => Comparison::LessEqual,
+                    Binary::GreaterEqual => Comparison::GreaterEqual,
+                    Binary::Unequal => Comparison::Unequal,
+                    _ => return None,
+                };
+                (comparison, to, a, b)
+            }
+            _ => return None,
+        };
+        Some((comparison, to, a, b))
+    }
+
+    fn jumps(&self) -> bool {
+        matches!(
+            self,
+            Self::Jump { .. }
+                | Self::JumpIfFalse { .. }
+                | Self::JumpIfTrue { .. }
+                | Self::BackIfTrue { .. }
+        )
+    }
+
+    /// Whether it leaves 0 or 1 in this register.
+    pub fn is_truth_in(&self, register: Register) -> bool {
+        let truth = matches!(*self, Self::Unary { operation: Unary::Truth | Unary::Not, to, .. } if to == register);
+        truth || self.comparison().is_some_and(|(_, to, ..)| to == register)
+    }
+
     /// Whether it changes more than the module that it is run for, or depends on what does.
     fn has_effects(&self) -> bool {
         match *self {
@@ -184,6 +272,11 @@ fn is_global(register: Register) -> bool {
 pub(crate) struct Program(pub Box<[Instruction]>);
 
 impl Program {
+    /// Whether it changes one of the first so many registers.
+    pub fn writes_below(&self, count: usize) -> bool {
+        self.0.iter().any(|step| step.target().is_some_and(|to| (to as usize) < count))
+    }
+
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
@@ -202,6 +295,50 @@ impl Program {
     pub fn is_random(&self) -> bool {
         self.0.iter().any(|step| matches!(step, Instruction::Call { call, .. } if call.is_random()))
     }
+}
+
+/// A condition whose comparisons end it as soon as one fails. `one` is a register that holds 1.
+pub(crate) fn with_early_ends(code: Vec<Instruction>, one: Register) -> Vec<Instruction> {
+    let Some(&Instruction::Return { from }) = code.last() else { return code };
+    let last = code.len() - 1;
+    let mut fused = Vec::with_capacity(code.len());
+    let mut next = 0;
+    while next < last {
+        let compared = code[next].comparison();
+        match (compared, code[next + 1], code.get(next + 2)) {
+            // A failed comparison jumps to the end, which returns it.
+            (Some((comparison, to, a, b)), Instruction::JumpIfFalse { test, distance }, _)
+                if to == test && to == from && next + 2 + distance as usize == last =>
+            {
+                fused.push(Instruction::Require { comparison, a, b });
+                next += 2;
+            }
+            (
+                Some((comparison, to, a, b)),
+                Instruction::Unary { operation: Unary::Truth, to: result, a: same },
+                Some(Instruction::Return { .. }),
+            ) if to == same && result == from && next + 2 == last => {
+                fused.push(Instruction::Require { comparison, a, b });
+                fused.push(Instruction::Return { from: one });
+                return fused;
+            }
+            (Some((comparison, to, a, b)), Instruction::Return { .. }, _)
+                if to == from && next + 1 == last =>
+            {
+                fused.push(Instruction::Require { comparison, a, b });
+                fused.push(Instruction::Return { from: one });
+                return fused;
+            }
+            // Other jumps would lead to the wrong place.
+            (_, _, _) if code[next].jumps() => return code,
+            _ => {
+                fused.push(code[next]);
+                next += 1;
+            }
+        }
+    }
+    // The last value is none of a comparison.
+    code
 }
 
 /// An array of numbers.
@@ -233,7 +370,7 @@ pub(crate) enum Fault {
     RemainderByZero,
     #[error("index {index} of array '{array}' is outside 0 to {last}")]
     Index { array: String, index: i64, last: usize },
-    #[error("a loop that does not end")]
+    #[error("a loop that does not end, or more work than a model may do")]
     Endless,
     #[error("{0}")]
     File(String),
@@ -362,6 +499,11 @@ impl Machine {
                 Instruction::Greater { to, a, b } => self.set(to, truth(self.get(a) > self.get(b))),
                 Instruction::Equal { to, a, b } => self.set(to, truth(self.get(a) == self.get(b))),
                 Instruction::Emit { from } => out.push(self.get(from) as f32),
+                Instruction::Require { comparison, a, b } => {
+                    if !comparison.holds(self.get(a), self.get(b)) {
+                        return 0.0;
+                    }
+                }
                 Instruction::Return { from } => return self.get(from),
                 Instruction::Jump { distance } => next += distance as usize,
                 Instruction::JumpIfFalse { test, distance } => {
@@ -372,9 +514,8 @@ impl Machine {
                 }
                 Instruction::BackIfTrue { test, distance } => {
                     if self.is_true(test) {
-                        self.fuel = self.fuel.saturating_sub(u64::from(distance));
+                        self.burn(u64::from(distance));
                         if self.fuel == 0 {
-                            self.fail(Fault::Endless);
                             return 0.0;
                         }
                         next -= distance as usize;
@@ -384,6 +525,14 @@ impl Machine {
             }
         }
         0.0
+    }
+
+    /// Accounts for work that is not seen from outside; fails if there was too much of it.
+    fn burn(&mut self, work: u64) {
+        self.fuel = self.fuel.saturating_sub(work);
+        if self.fuel == 0 {
+            self.fail(Fault::Endless);
+        }
     }
 
     fn rare(&mut self, instruction: Instruction) {

@@ -104,6 +104,10 @@ pub(crate) struct Production {
     pub successor: Successor,
     /// How many parameters and local variables it has.
     pub slots: usize,
+    /// Whether it replaces one module, whose parameters it leaves where they are bound.
+    pub keeps_parameters: bool,
+    /// Whether it draws random numbers, beside those that choose it.
+    pub is_random: bool,
     pub place: Place,
     pub text: String,
     /// Instructions that one attempt to apply it runs at most.

@@ -42,6 +42,13 @@ impl ModuleString {
         &self.parameters
     }
 
+    /// Replaces every parameter by what becomes of it.
+    pub fn map_parameters(&mut self, become_of: impl Fn(f32) -> f32) {
+        for parameter in &mut self.parameters {
+            *parameter = become_of(*parameter);
+        }
+    }
+
     /// Every module with its parameters.
     pub fn modules(&self) -> impl Iterator<Item = (&ModuleKind, &[f32])> {
         let mut rest = &self.parameters[..];

@@ -81,6 +81,8 @@ struct Candidate {
     bound: usize,
 }
 
+/// Up to how many modules are copied one by one.
+const SHORT: usize = 8;
 /// How many modules are treated between two looks at the clock.
 const CLOCK: u32 = 1 << 14;
 
@@ -145,18 +147,45 @@ impl<'a, 'm> Pass<'a, 'm> {
             let kinds = &self.task.string.kinds;
             let from = self.place.module;
             let is_active = |&kind: &u8| self.active[kind as usize];
-            let length = kinds[from..end].iter().position(is_active).unwrap_or(end - from);
-            if length > 0 {
-                self.copy(length);
-            } else {
-                self.module()?;
+            let near = end.min(from + SHORT);
+            match kinds[from..near].iter().position(is_active) {
+                Some(0) => self.module()?,
+                Some(length) => self.copy_short(length),
+                None => {
+                    let length = kinds[near..end].iter().position(is_active);
+                    self.copy(length.unwrap_or(end - near) + near - from);
+                }
             }
         }
         self.check()
     }
 
-    /// Copies so many modules.
+    /// Copies a few modules, one by one.
     #[inline]
+    fn copy_short(&mut self, count: usize) {
+        let string = self.task.string;
+        let first = self.place.module;
+        let mut parameter = self.place.parameter;
+        for &kind in &string.kinds[first..first + count] {
+            self.out.kinds.push(kind);
+            match self.task.arities[kind as usize] as usize {
+                0 => {}
+                1 => {
+                    self.out.parameters.push(string.parameters[parameter]);
+                    parameter += 1;
+                }
+                arity => {
+                    let values = &string.parameters[parameter..parameter + arity];
+                    self.out.parameters.extend_from_slice(values);
+                    parameter += arity;
+                }
+            }
+        }
+        self.place = Place { module: first + count, parameter };
+        self.matcher.looked += count as u64;
+    }
+
+    /// Copies so many modules.
     fn copy(&mut self, count: usize) {
         let string = self.task.string;
         let kinds = &string.kinds[self.place.module..self.place.module + count];
@@ -209,11 +238,19 @@ impl<'a, 'm> Pass<'a, 'm> {
         let set = self.layer.set;
         self.candidates.clear();
         self.bound.clear();
+        let mut is_bound = false;
         for &number in numbers {
-            if !self.applies(set, number)? {
+            let production = &set.productions[number as usize];
+            if !is_bound
+                && !self.matcher.follows(&production.strict, self.place, self.machine.slots())
+            {
                 continue;
             }
-            let production = &set.productions[number as usize];
+            is_bound = production.keeps_parameters;
+            let after = self.after(production);
+            if !self.holds(production, number, self.place, after)? {
+                continue;
+            }
             let Some(weight) = self.weight(production)? else { return Ok(Some(number)) };
             let bound = self.bound.len();
             self.bound.extend_from_slice(&self.machine.slots()[..production.slots]);
@@ -287,19 +324,6 @@ impl<'a, 'm> Pass<'a, 'm> {
         None
     }
 
-    /// Whether a production applies to the present module; binds its parameters.
-    #[inline]
-    fn applies(&mut self, set: &'a ProductionSet, number: u32) -> Derived<bool> {
-        let production = &set.productions[number as usize];
-        let place = self.place;
-        self.matcher.looked += 1;
-        if !self.matcher.follows(&production.strict, place, self.machine.slots()) {
-            return Ok(false);
-        }
-        let after = self.after(production);
-        self.holds(production, number, place, after)
-    }
-
     /// Whether the contexts and the condition of a production hold whose predecessor is bound;
     /// the left context ends before `before`, the right one begins at `after`.
     #[inline]
@@ -320,7 +344,9 @@ impl<'a, 'm> Pass<'a, 'm> {
         {
             return Ok(false);
         }
-        self.machine.random.begin(self.place.module, self.task.tick, number);
+        if production.is_random {
+            self.machine.random.begin(self.place.module, self.task.tick, number);
+        }
         if production.test.is_empty() {
             return Ok(true);
         }
@@ -356,7 +382,10 @@ impl<'a, 'm> Pass<'a, 'm> {
                 self.expand(decomposition, &successor.kinds, parameters, (before, after))?;
             }
             None => {
-                self.out.kinds.extend_from_slice(&successor.kinds);
+                match successor.kinds[..] {
+                    [kind] => self.out.kinds.push(kind),
+                    _ => self.out.kinds.extend_from_slice(&successor.kinds),
+                }
                 if !successor.program.is_empty() {
                     self.matcher.looked += successor.program.cost();
                     self.machine.run(&successor.program, &mut self.out.parameters);

@@ -2,6 +2,9 @@
 
 use super::{Machine, Register};
 
+/// How many coins are thrown at most for a binomial number.
+const MOST_COINS: f64 = 1e7;
+
 /// A function that is called with arguments in consecutive registers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Call {
@@ -45,7 +48,10 @@ impl Machine {
             Call::Uniform => self.random.uniform() * a,
             Call::Normal => self.random.normal() * b + a,
             Call::Beta => self.random.beta(a, b),
-            Call::Binomial => self.random.binomial(a, b),
+            Call::Binomial => {
+                self.burn(a.clamp(0.0, MOST_COINS) as u64);
+                self.random.binomial(a.min(MOST_COINS), b)
+            }
             Call::Seed => {
                 self.random.seed(a);
                 0.0

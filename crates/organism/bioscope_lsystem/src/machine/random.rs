@@ -195,8 +195,7 @@ impl Randomness {
 
     /// How many of n coins of this probability show heads.
     pub fn binomial(&mut self, count: f64, probability: f64) -> f64 {
-        const LARGEST: f64 = 1e7;
-        let count = count.clamp(0.0, LARGEST) as u64;
+        let count = count.max(0.0) as u64;
         (0..count).filter(|_| self.uniform() <= probability).count() as f64
     }
 }

@@ -130,7 +130,8 @@ impl Compiler<'_, '_> {
         let left = self.register(left)?;
         self.temporaries = mark;
         let to = self.temporary()?;
-        if self.is_own() {
+        let is_truth = self.code.last().is_some_and(|last| last.is_truth_in(left));
+        if self.is_own() && !(is_truth && left == to) {
             self.emit(Instruction::Unary { operation: Unary::Truth, to, a: left })?;
         } else if left != to {
             self.emit(Instruction::Move { to, from: left })?;

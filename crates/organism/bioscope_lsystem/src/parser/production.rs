@@ -10,7 +10,7 @@ use super::{
 use crate::{
     Alphabet,
     lexer::{Cursor, Term, Word},
-    machine::{Instruction, Program, SLOT_LIMIT},
+    machine::{Instruction, Program, SLOT_LIMIT, with_early_ends},
     model::{Pattern, Production, RightContext, Successor},
 };
 
@@ -70,6 +70,13 @@ impl Parser<'_> {
             return Err(SyntaxError::unexpected(cursor, span, expected));
         }
         let program = Program(rest.into());
+        let parameters: usize = strict.iter().map(|pattern| pattern.arity as usize).sum();
+        let keeps_parameters = strict.len() == 1
+            && !test.writes_below(parameters)
+            && !probability.as_ref().is_some_and(|program| program.writes_below(parameters));
+        let is_random = test.is_random()
+            || program.is_random()
+            || probability.as_ref().is_some_and(Program::is_random);
         let patterns = left.len() + strict.len() + right.len();
         let cost = test.cost() + program.cost() + probability.as_ref().map_or(0, Program::cost);
         Ok(Production {
@@ -80,6 +87,8 @@ impl Parser<'_> {
             probability,
             successor: Successor { kinds, program },
             slots: scope.len(),
+            keeps_parameters,
+            is_random,
             place,
             text,
             cost: cost + patterns as u64,
@@ -124,7 +133,9 @@ impl Parser<'_> {
         if always && compiler.code.is_empty() {
             return Ok((Program::default(), after));
         }
-        Ok((compiler.returning(value)?, after))
+        let one = compiler.register(Operand::Constant(1.0))?;
+        let program = compiler.returning(value)?;
+        Ok((Program(with_early_ends(program.0.into_vec(), one).into()), after))
     }
 
     fn predecessor(&mut self, cursor: &mut Cursor, scope: &mut Scope) -> Parsed<Predecessor> {
