@@ -107,7 +107,8 @@ fn add_product<R: Real>(block: &mut Block<R>, a: Triple<R>, b: Triple<R>, symmet
         for column in 0..3 {
             // The same bits on both sides of the diagonal.
             let swap = symmetric && column < row;
-            let (row_part, column_part) = if swap { (a[column], b[row]) } else { (a[row], b[column]) };
+            let (row_part, column_part) =
+                if swap { (a[column], b[row]) } else { (a[row], b[column]) };
             block[3 * row + column] += row_part * column_part;
         }
     }
