@@ -70,7 +70,7 @@ impl Table {
 /// Looks for contexts in one string.
 pub(crate) struct Matcher<'a> {
     pub string: &'a ModuleString,
-    pub skipped: &'a [bool],
+    pub skipped: &'a [bool; 256],
     /// Number of parameters of each kind.
     pub arities: &'a [u8; 256],
     pub groups: &'a Groups,

@@ -30,6 +30,8 @@ use crate::{
 };
 
 type Derived<T> = Result<T, DerivationError>;
+/// Boxed, so that what goes well is returned in registers.
+type Passed<T> = Result<T, Box<DerivationError>>;
 
 /// How a production is chosen among those that apply.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -484,7 +484,6 @@ impl Machine {
     }
 
     /// Runs a program; what it emits is appended to `out`, what it returns is returned, else 0.
-    #[inline]
     pub fn run(&mut self, program: &Program, out: &mut Vec<f32>) -> f64 {
         let code = &program.0[..];
         let mut next = 0;

@@ -233,7 +233,7 @@ pub(crate) struct System {
     /// Seed of the homomorphism's own random numbers.
     pub homomorphism_seed: Option<i64>,
     /// By kind: whether context matching looks past it.
-    pub skipped: Vec<bool>,
+    pub skipped: Box<[bool; 256]>,
     pub right_context: RightContext,
     /// Whether the string has no ends.
     pub is_ring: bool,

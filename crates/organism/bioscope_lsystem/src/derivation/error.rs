@@ -74,3 +74,9 @@ impl From<DerivationError> for bioscope_core::Error {
         }
     }
 }
+
+impl From<Box<DerivationError>> for DerivationError {
+    fn from(error: Box<DerivationError>) -> Self {
+        *error
+    }
+}

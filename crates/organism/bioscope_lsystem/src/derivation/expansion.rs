@@ -3,7 +3,7 @@
 //! Contexts are looked for in the string that is being rewritten, around the module from which
 //! everything stems.
 
-use super::{Choice, DerivationError, Derived, pass::Pass};
+use super::{Choice, DerivationError, Passed, pass::Pass};
 use crate::{
     context::Place,
     model::{Action, Production, ProductionSet},
@@ -28,14 +28,14 @@ impl<'a> Pass<'a, '_> {
         kinds: &'a [u8],
         parameters: Vec<f32>,
         around: (Place, Place),
-    ) -> Derived<()> {
+    ) -> Passed<()> {
         let level = Level { kinds, parameters, module: 0, parameter: 0 };
         self.expand_levels(set, vec![level], 0, around)
     }
 
     /// Applies a production of the set to the present module, and goes on with what it makes;
     /// false if none applies.
-    pub(super) fn expand_here(&mut self, set: &'a ProductionSet) -> Derived<bool> {
+    pub(super) fn expand_here(&mut self, set: &'a ProductionSet) -> Passed<bool> {
         if set.maximum_depth == 0 {
             return Ok(false);
         }
@@ -71,7 +71,7 @@ impl<'a> Pass<'a, '_> {
         mut levels: Vec<Level<'a>>,
         outer: usize,
         around: (Place, Place),
-    ) -> Derived<()> {
+    ) -> Passed<()> {
         while let Some(mut level) = levels.pop() {
             let Some(&kind) = level.kinds.get(level.module) else { continue };
             let depth = outer + levels.len();
@@ -119,7 +119,7 @@ impl<'a> Pass<'a, '_> {
         kinds: &[u8],
         parameters: &[f32],
         around: (Place, Place),
-    ) -> Derived<Option<u32>> {
+    ) -> Passed<Option<u32>> {
         let single;
         let numbers: &[u32] = match &set.actions[kinds[0] as usize] {
             Action::Keep => return Ok(None),
@@ -195,7 +195,7 @@ impl<'a> Pass<'a, '_> {
     }
 
     /// What a production makes whose parameters are bound.
-    fn result(&mut self, set: &'a ProductionSet, number: u32) -> Derived<Level<'a>> {
+    fn result(&mut self, set: &'a ProductionSet, number: u32) -> Passed<Level<'a>> {
         let production = &set.productions[number as usize];
         let successor = &production.successor;
         let mut parameters = Vec::new();
@@ -209,13 +209,13 @@ impl<'a> Pass<'a, '_> {
     }
 
     #[cold]
-    fn too_deep(&self, set: &ProductionSet) -> DerivationError {
+    fn too_deep(&self, set: &ProductionSet) -> Box<DerivationError> {
         let production = &set.productions[0];
-        DerivationError::Limit {
+        Box::new(DerivationError::Limit {
             place: production.place.clone(),
             what: format!("results nested more than {DEPTH_LIMIT} deep"),
             step: self.task.step,
             production: production.text.clone(),
-        }
+        })
     }
 }

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::{
-    Choice, Derived,
+    Choice, Passed,
     pass::{Made, Pass, Task, exceeded},
 };
 use crate::{context::Place, machine::Machine};
@@ -17,7 +17,7 @@ pub(super) fn rewrite(
     machine: &mut Machine,
     looked: u64,
     threads: bool,
-) -> Derived<(Made, u64)> {
+) -> Passed<(Made, u64)> {
     if threads && task.string.kinds.len() >= 2 * CHUNK && may_split(&task, machine) {
         return on_threads(task, machine, looked);
     }
@@ -44,7 +44,7 @@ pub(super) fn one_after_the_other(
     task: Task,
     machine: &mut Machine,
     looked: u64,
-) -> Derived<(Made, u64)> {
+) -> Passed<(Made, u64)> {
     let string = task.string;
     let mut pass = Pass::new(task, machine, Place { module: 0, parameter: 0 }, looked);
     if task.layers[0].set.productions.iter().all(|one| one.successor.program.is_empty()) {
@@ -73,7 +73,7 @@ fn grown(task: &Task) -> usize {
     total.min(task.limits.modules.saturating_add(1)).min(task.limits.bytes)
 }
 
-fn on_threads(task: Task, machine: &Machine, looked: u64) -> Derived<(Made, u64)> {
+fn on_threads(task: Task, machine: &Machine, looked: u64) -> Passed<(Made, u64)> {
     let starts = chunk_starts(&task);
     let length = task.string.kinds.len();
     let parts: Vec<(Made, u64)> = starts
@@ -87,7 +87,7 @@ fn on_threads(task: Task, machine: &Machine, looked: u64) -> Derived<(Made, u64)
                 Ok((pass.out, used))
             },
         )
-        .collect::<Derived<_>>()?;
+        .collect::<Passed<_>>()?;
     let looked = looked + parts.iter().map(|(_, used)| used).sum::<u64>();
     let made = joined(&task, parts)?;
     if looked > task.limits.operations {
@@ -116,7 +116,7 @@ fn chunk_starts(task: &Task) -> Vec<Place> {
 }
 
 /// The parts, one after the other.
-fn joined(task: &Task, parts: Vec<(Made, u64)>) -> Derived<Made> {
+fn joined(task: &Task, parts: Vec<(Made, u64)>) -> Passed<Made> {
     let mut made = Made::default();
     let (mut modules, mut parameters) = (0, 0);
     for (part, _) in &parts {

@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use super::{Choice, DerivationError, Derived, Limits};
+use super::{Choice, DerivationError, Limits, Passed};
 use crate::{
     Alphabet, ModuleString,
     context::{Groups, Matcher, Place},
@@ -141,7 +141,7 @@ impl<'a, 'm> Pass<'a, 'm> {
     }
 
     /// Treats the modules up to number `end`.
-    pub fn run(&mut self, end: usize) -> Derived<()> {
+    pub fn run(&mut self, end: usize) -> Passed<()> {
         self.check()?;
         while self.place.module < end {
             let kinds = &self.task.string.kinds;
@@ -201,7 +201,7 @@ impl<'a, 'm> Pass<'a, 'm> {
 
     /// Appends what becomes of the next module.
     #[inline]
-    fn module(&mut self) -> Derived<()> {
+    fn module(&mut self) -> Passed<()> {
         let set = self.layer.set;
         let kind = self.task.string.kinds[self.place.module];
         self.matcher.looked += 1;
@@ -234,7 +234,7 @@ impl<'a, 'm> Pass<'a, 'm> {
     }
 
     /// The production to apply among those of these numbers, its parameters bound.
-    fn choose(&mut self, numbers: &[u32]) -> Derived<Option<u32>> {
+    fn choose(&mut self, numbers: &[u32]) -> Passed<Option<u32>> {
         let set = self.layer.set;
         self.candidates.clear();
         self.bound.clear();
@@ -250,6 +250,9 @@ impl<'a, 'm> Pass<'a, 'm> {
             let after = self.after(production);
             if !self.holds(production, number, self.place, after)? {
                 continue;
+            }
+            if self.task.choice == Choice::First {
+                return Ok(Some(number));
             }
             let Some(weight) = self.weight(production)? else { return Ok(Some(number)) };
             let bound = self.bound.len();
@@ -268,11 +271,9 @@ impl<'a, 'm> Pass<'a, 'm> {
     }
 
     /// Weight of a production that applies; none if it is taken without a draw.
-    #[inline]
-    fn weight(&mut self, production: &Production) -> Derived<Option<f64>> {
+    fn weight(&mut self, production: &Production) -> Passed<Option<f64>> {
         let is_first = self.candidates.is_empty();
         match (&production.probability, self.task.choice) {
-            (_, Choice::First) => Ok(None),
             (None, Choice::FirstOrWeighted) if is_first => Ok(None),
             (None, _) => Ok(Some(1.0)),
             (Some(program), choice) => {
@@ -333,7 +334,7 @@ impl<'a, 'm> Pass<'a, 'm> {
         number: u32,
         before: Place,
         after: Place,
-    ) -> Derived<bool> {
+    ) -> Passed<bool> {
         if !production.left.is_empty()
             && !self.matcher.precedes(&production.left, before, self.machine.slots())
         {
@@ -367,7 +368,7 @@ impl<'a, 'm> Pass<'a, 'm> {
     }
 
     /// Appends the successor of a production whose parameters are bound.
-    fn apply(&mut self, number: u32) -> Derived<()> {
+    fn apply(&mut self, number: u32) -> Passed<()> {
         let set = self.layer.set;
         let production = &set.productions[number as usize];
         let successor = &production.successor;
@@ -401,7 +402,7 @@ impl<'a, 'm> Pass<'a, 'm> {
     }
 
     /// A module to which no production applies.
-    fn keep(&mut self, kind: u8) -> Derived<()> {
+    fn keep(&mut self, kind: u8) -> Passed<()> {
         if self.task.choice == Choice::Reference {
             self.draw_for_nothing(kind);
         }
@@ -418,7 +419,7 @@ impl<'a, 'm> Pass<'a, 'm> {
             self.out.notes.push((self.out.kinds.len(), self.place.module));
         }
         let before = self.place;
-        self.copy(1);
+        self.copy_short(1);
         if self.task.layers.len() > 1 {
             self.pass_over(before.module..before.module + 1, before.parameter);
         }
@@ -483,11 +484,16 @@ impl<'a, 'm> Pass<'a, 'm> {
 
     /// An error if the last evaluation of a production failed.
     #[inline]
-    pub fn examine(&mut self, production: &Production) -> Derived<()> {
-        let Some(fault) = self.machine.fault.take() else { return Ok(()) };
-        Err(DerivationError::Fault {
+    pub fn examine(&mut self, production: &Production) -> Passed<()> {
+        if self.machine.fault.is_none() { Ok(()) } else { Err(self.fault(production)) }
+    }
+
+    #[cold]
+    fn fault(&mut self, production: &Production) -> Box<DerivationError> {
+        let fault = self.machine.fault.take();
+        Box::new(DerivationError::Fault {
             place: production.place.clone(),
-            what: fault.to_string(),
+            what: fault.map(|fault| fault.to_string()).unwrap_or_default(),
             step: self.task.step,
             production: production.text.clone(),
         })
@@ -495,7 +501,7 @@ impl<'a, 'm> Pass<'a, 'm> {
 
     /// An error if the string has become too large.
     #[inline]
-    pub fn bound_size(&self) -> Derived<()> {
+    pub fn bound_size(&self) -> Passed<()> {
         let modules = self.out.kinds.len();
         if modules <= self.task.limits.modules && self.bytes() <= self.task.limits.bytes {
             return Ok(());
@@ -508,7 +514,7 @@ impl<'a, 'm> Pass<'a, 'm> {
     }
 
     /// An error if a limit is exceeded.
-    pub fn check(&self) -> Derived<()> {
+    pub fn check(&self) -> Passed<()> {
         let Limits { modules, bytes, operations } = self.task.limits;
         let what = if self.out.kinds.len() > modules {
             format!("more than {modules} modules")
@@ -527,7 +533,7 @@ impl<'a, 'm> Pass<'a, 'm> {
 
 /// The error about a limit; it names the production that made most of the string.
 #[cold]
-pub(super) fn exceeded(task: &Task, by_production: &[u64], what: String) -> DerivationError {
+pub(super) fn exceeded(task: &Task, by_production: &[u64], what: String) -> Box<DerivationError> {
     let layer = task.layers[0];
     let inner = layer.decomposition.iter().flat_map(|set| &set.productions);
     let productions: Vec<&Production> = layer.set.productions.iter().chain(inner).collect();
@@ -536,12 +542,12 @@ pub(super) fn exceeded(task: &Task, by_production: &[u64], what: String) -> Deri
     let Some(production) = largest.and_then(|number| productions.get(number)) else {
         let place = crate::Place { file: "".into(), line: 1, column: 1 };
         let production = String::new();
-        return DerivationError::Limit { place, what, step: task.step, production };
+        return Box::new(DerivationError::Limit { place, what, step: task.step, production });
     };
-    DerivationError::Limit {
+    Box::new(DerivationError::Limit {
         place: production.place.clone(),
         what,
         step: task.step,
         production: production.text.clone(),
-    }
+    })
 }

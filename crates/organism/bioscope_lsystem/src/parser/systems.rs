@@ -85,7 +85,7 @@ impl Draft {
     }
 
     pub fn finish(self, alphabet: &Alphabet) -> System {
-        let mut skipped = vec![false; 256];
+        let mut skipped = Box::new([false; 256]);
         for (code, kind) in alphabet.kinds().iter().enumerate() {
             skipped[code] = self.is_skipped(&kind.symbol);
         }
