@@ -82,7 +82,7 @@ def app(quiet: bool) -> None:
 
 
 world_name = click.argument("world")
-model_file = click.argument("file", type=click.Path(path_type=Path))
+model_name = click.argument("model")
 seed_option = click.option(
     "--seed", type=click.IntRange(0, 2**64 - 1), help="Seed; drawn if not given."
 )
@@ -113,12 +113,15 @@ def opened(name: str, seed: int | None) -> World:
 @command("list", "bioscope list")
 def list_() -> None:
     """List the ready-made worlds and models, each with a line."""
+    from bioscope import gallery
     from bioscope.populations.plants import models
 
     for name, summary in worlds.names().items():
-        print(f"{name:16} {summary}")
+        print(f"{name:21} World: {summary}")
     for name, path in models().items():
-        print(f"{name:16} Plant model, {path}")
+        is_in_gallery = name in gallery.files()
+        summary = gallery.description(name) if is_in_gallery else f"plant of a world, {path}"
+        print(f"{name:21} Model: {summary}")
 
 
 @command("run", "bioscope run reef --seconds 60 --seed 7 --events reef.jsonl --hash")
@@ -213,17 +216,21 @@ def export(world: str, output: Path, seconds: float, fps: float, seed: int | Non
     export_world(opened(world, seed), output, seconds, fps, say=say)
 
 
-@command("derive", "bioscope derive kelp.l --steps 8")
-@model_file
+@command("derive", "bioscope derive maple --steps 3")
+@model_name
 @steps_option
 @click.option("--seed", type=click.IntRange(0, 2**64 - 1), default=1, help="Seed.")
 @click.option("--homomorphism", is_flag=True, help="The string as the turtle reads it.")
 @click.option("--format", "form", type=click.Choice(["string", "json"]), default="string")
-def derive(file: Path, steps: int | None, seed: int, homomorphism: bool, form: str) -> None:
-    """Print the string that an L-system derives."""
-    from bioscope.lsystem import LSystem
+def derive(model: str, steps: int | None, seed: int, homomorphism: bool, form: str) -> None:
+    """Print the string that an L-system derives.
 
-    system = LSystem.read(file)
+    MODEL is a file (bush.l, ./bush) or, without folder and ending, a name from `bioscope list`.
+    """
+    from bioscope.lsystem import LSystem
+    from bioscope.populations.plants import model_path
+
+    system = LSystem.read(model_path(model))
     for warning in system.warnings:
         say(warning)
     string = system.derive(steps, seed)
@@ -241,19 +248,42 @@ def derive(file: Path, steps: int | None, seed: int, homomorphism: bool, form: s
     print(msgspec.json.encode(parts).decode())
 
 
-@command("grow", "bioscope grow kelp.l -o kelp.glb --seed 3")
-@model_file
+@command("grow", "bioscope grow maple -o maple.glb --seed 3")
+@model_name
 @path_option(
     "-o", "--output", required=True, metavar="FILE.glb|.obj|.usdc|.png", help="What to write."
 )
 @steps_option
 @click.option("--seed", type=click.IntRange(0, 2**64 - 1), default=1, help="Seed.")
-def grow(file: Path, output: Path, steps: int | None, seed: int) -> None:
-    """Grow a plant and write its shape."""
-    from bioscope.lsystem.specimen import grow as grow_plant
+def grow(model: str, output: Path, steps: int | None, seed: int) -> None:
+    """Grow a plant and write its shape.
 
-    mesh = grow_plant(file, output, steps, seed)
+    MODEL is a file (bush.l, ./bush) or, without folder and ending, a name from `bioscope list`.
+    """
+    from bioscope.lsystem.specimen import grow as grow_plant
+    from bioscope.populations.plants import model_path
+
+    mesh = grow_plant(model_path(model), output, steps, seed)
     say(f"{output}: {len(mesh.triangles)} triangles")
+
+
+@command("edit", "bioscope edit kelp.l")
+@click.argument("file", metavar="[FILE|NAME]", required=False)
+@click.option(
+    "--port", type=click.IntRange(1, 65535), default=8766, help="Port; the next free one."
+)
+@click.option("--host", default="127.0.0.1", help="Address; others than loopback need a token.")
+@click.option("--token", help="Word that a page must know.")
+@click.option("--no-open", is_flag=True, help="Do not open a browser.")
+def edit(file: str | None, port: int, host: str, token: str | None, no_open: bool) -> None:
+    """Edit an L-system in the browser beside its plant.
+
+    FILE is made if it does not exist; NAME is a model of `bioscope list`, to look at and to play
+    with; without either a small example comes up.
+    """
+    from bioscope.lsystem.editor import edit as serve_editor
+
+    serve_editor(file, host=host, port=port, token=token, open_browser=not no_open, say=say)
 
 
 @command("bench", "bioscope bench reef.tick flock")

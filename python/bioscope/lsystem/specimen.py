@@ -16,9 +16,15 @@ from bioscope.lsystem.turtle import Turtle
 from bioscope.world import Population, World
 
 if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
     from bioscope._engine import Mesh, Publication
 
 SUFFIXES = (".glb", ".obj", ".usdc", ".usda", ".png")
+VIEW_ANGLE = math.radians(30)
+VIEW_LIMITS = (16, 4096)
+FLOOR = (0.50, 0.48, 0.44)
+LIGHT: dict[str, float] = {}
 
 
 def grow(path: Path, output: Path, steps: int | None, seed: int) -> Mesh:
@@ -101,14 +107,84 @@ def _write_obj(output: Path, mesh: Mesh) -> None:
         temporary.write_text("\n".join(lines) + "\n", encoding="utf-8")
 
 
-def _write_picture(output: Path, mesh: Mesh) -> None:
+def portrait(mesh: Mesh, width: int, height: int, *, full: Mesh | None = None) -> NDArray[np.uint8]:
+    """Return a picture (height, width, 3) of a plant that stands on level ground.
+
+    Parameters
+    ----------
+    mesh
+        The plant.
+    width, height
+        Pixels.
+    full
+        What the picture has room for; the plant itself if not given. Stages of one plant that are
+        to be compared share the last one.
+    """
+    if not (VIEW_LIMITS[0] <= min(width, height) and max(width, height) <= VIEW_LIMITS[1]):
+        raise InvalidValueError(f"{width}x{height}: expected {VIEW_LIMITS[0]} to {VIEW_LIMITS[1]}")
+    points = (mesh if full is None else full).positions
+    low, high = points.min(axis=0), points.max(axis=0)
     world = World(seed=1, title="specimen")
+    world.environment.set(**LIGHT)
     world.add(Specimen(mesh, "specimen"))
-    low, high = mesh.positions.min(axis=0), mesh.positions.max(axis=0)
-    middle = tuple(float(one) for one in (low + high) / 2)
-    reach = float(np.linalg.norm(high - low)) * 1.35
-    place = (middle[0] + reach * 0.3, middle[1] + reach * 0.12, middle[2] + reach * 0.95)
-    camera = _engine.Camera.looking_at(place, middle, math.radians(40))
-    picture = _engine.Rasterizer(picture=True).picture(world.scene, camera, 960, 960)
+    size = float(np.linalg.norm(high - low))
+    world.add(Specimen(_floor((low + high) / 2, float(low[1]), size), "floor"))
+    camera = _camera(points, width / height)
+    return _engine.Rasterizer(picture=True).picture(world.scene, camera, width, height)
+
+
+def _camera(points: NDArray[np.float32], aspect: float) -> _engine.Camera:
+    """Return the nearest camera of a fixed direction that sees all points."""
+    middle = (points.min(axis=0) + points.max(axis=0)) / 2
+    back = np.array([0.30, 0.16, 0.94]) / np.linalg.norm([0.30, 0.16, 0.94])
+    right = np.cross([0.0, 1.0, 0.0], back)
+    right /= np.linalg.norm(right)
+    up = np.cross(back, right)
+    away = points - middle
+    rise = math.tan(VIEW_ANGLE / 2) * 0.92
+    # Centre what is seen, then step back until the outermost points are in the picture.
+    middle = middle + right * _mid(away @ right) + up * _mid(away @ up)
+    away = points - middle
+    reach = away @ back
+    distance = max(
+        float((reach + np.abs(away @ up) / rise).max()),
+        float((reach + np.abs(away @ right) / (rise * aspect)).max()),
+        1e-3,
+    )
+    place = middle + back * distance
+    return _engine.Camera.looking_at(
+        (float(place[0]), float(place[1]), float(place[2])),
+        (float(middle[0]), float(middle[1]), float(middle[2])),
+        VIEW_ANGLE,
+    )
+
+
+def _mid(values: NDArray[np.float64]) -> float:
+    return float(values.min() + values.max()) / 2
+
+
+def _floor(middle: NDArray[np.float32], level: float, size: float) -> Mesh:
+    """Return a pale disc below a plant, large enough to reach the horizon."""
+    rings = np.array([0.0, 0.5, 1.0, 2.0, 4.0, 10.0, 40.0, 200.0]) * max(size, 1e-3)
+    corners = 48
+    angles = np.linspace(0, 2 * math.pi, corners, endpoint=False)
+    places = [
+        [middle[0] + ring * math.cos(angle), level, middle[2] + ring * math.sin(angle)]
+        for ring in rings
+        for angle in angles
+    ]
+    triangles = []
+    for ring in range(len(rings) - 1):
+        for corner in range(corners):
+            a, b = ring * corners + corner, ring * corners + (corner + 1) % corners
+            triangles += [[a, b + corners, a + corners], [a, b, b + corners]]
+    positions = np.array(places, np.float32)
+    colors = np.tile(np.array(FLOOR, np.float32), (len(positions), 1))
+    normals = np.tile(np.array([0, 1, 0], np.float32), (len(positions), 1))
+    faces = np.array(triangles, np.uint32)
+    return _engine.Mesh(positions, faces, normals=normals, colors=colors)
+
+
+def _write_picture(output: Path, mesh: Mesh) -> None:
     with written_whole(output) as temporary:
-        temporary.write_bytes(_engine.encode_png(picture))
+        temporary.write_bytes(_engine.encode_png(portrait(mesh, 960, 960)))

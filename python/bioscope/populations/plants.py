@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from bioscope import gallery
 from bioscope.errors import UnknownNameError
 from bioscope.populations.native import Asked
 
@@ -20,8 +21,8 @@ class Plants(Asked):
     Parameters
     ----------
     model
-        Path of an L-system file (`.l`; a `.colors` file beside it names its colours), or the name
-        of a model from `bioscope list` (`kelp`).
+        Path of an L-system file (`.l` or `.lsys`; a `.colors` file beside it names its colours), or
+        the name of a model from `bioscope list` (`kelp`).
     count
         How many.
     habitat
@@ -56,7 +57,7 @@ class Plants(Asked):
         variety: float | None = None,
         **parameters: float,
     ) -> None:
-        path = _model(model)
+        path = model_path(model)
         palette = path.with_suffix(".colors")
         options = {
             "species": species or path.stem,
@@ -75,17 +76,30 @@ class Plants(Asked):
 
 
 def models() -> dict[str, Path]:
-    """Return the plant models that come with the package, by name."""
-    return {path.stem: path for path in sorted(_WORLDS.glob("*/plants/*.l"))}
+    """Return the plant models that come with the package, by name: of worlds and gallery."""
+    of_worlds = {path.stem: path for path in sorted(_WORLDS.glob("*/plants/*.l"))}
+    return of_worlds | gallery.files()
 
 
-def _model(model: str) -> Path:
-    if model.endswith(".l") or "/" in model:
+def model_path(model: str) -> Path:
+    """Return the file of a model.
+
+    Parameters
+    ----------
+    model
+        A path, if it has a folder or an ending (`kelp.l`); else a name from `bioscope list`.
+
+    Raises
+    ------
+    UnknownNameError
+        If there is no model of this name.
+    """
+    if Path(model).suffix or len(Path(model).parts) > 1:
         return Path(model)
     known = models()
     if model not in known:
         names = ", ".join(known)
         raise UnknownNameError(
-            f"unknown plant model '{model}'; known: {names}, or a path to a .l file"
+            f"unknown plant model '{model}'; known: {names}, or a path to a .l or .lsys file"
         )
     return known[model]
