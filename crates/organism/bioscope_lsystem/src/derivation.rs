@@ -10,20 +10,21 @@
 mod error;
 mod exchange;
 mod expansion;
+mod options;
 mod parallel;
 mod pass;
 
 use std::{
-    path::PathBuf,
     sync::Arc,
     time::{Duration, Instant},
 };
 
 pub use error::{DerivationError, Limits};
+pub use options::DerivationOptions;
 use pass::{Layer, Made, Task};
 
 use crate::{
-    Alphabet, Environment, Functions, LSystem, ModuleString, TurtleOptions,
+    Alphabet, LSystem, ModuleString,
     context::Groups,
     machine::{Machine, Program, Randomness},
     model::{Order, ProductionSet, System},
@@ -44,43 +45,6 @@ enum Choice {
     Weighted,
     /// Likewise, with the random numbers of the reference program.
     Reference,
-}
-
-/// What a derivation needs to know beside the L-system.
-pub struct DerivationOptions {
-    /// Seed of the random numbers. Without one, files of the cpfg dialect draw the numbers of
-    /// the reference program, and files of our own notation have seed 0.
-    pub seed: Option<u64>,
-    /// What it may use.
-    pub limits: Limits,
-    /// Seconds after which it is stopped.
-    pub seconds: Option<f64>,
-    /// Whether it may use several threads; the string does not depend on that.
-    pub threads: bool,
-    /// Functions and curves that the model looks up.
-    pub functions: Option<Arc<dyn Functions>>,
-    /// What surrounds the plant.
-    pub environment: Option<Box<dyn Environment>>,
-    /// How the turtle walks, for modules that ask for its place.
-    pub turtle: TurtleOptions,
-    /// The folder in which the model may read and write files.
-    pub folder: Option<PathBuf>,
-}
-
-impl Default for DerivationOptions {
-    /// No seed, default limits, several threads, no surroundings.
-    fn default() -> Self {
-        Self {
-            seed: None,
-            limits: Limits::default(),
-            seconds: None,
-            threads: true,
-            functions: None,
-            environment: None,
-            turtle: TurtleOptions::default(),
-            folder: None,
-        }
-    }
 }
 
 impl LSystem {
@@ -145,10 +109,11 @@ pub struct Derivation<'a> {
 }
 
 impl<'a> Derivation<'a> {
-    /// Begins with the axiom.
+    /// Begins with the axiom, in the environment that the file asks for.
     pub fn new(system: &'a LSystem, seed: impl Into<Option<u64>>, limits: Limits) -> Derived<Self> {
-        let options = DerivationOptions { seed: seed.into(), limits, ..Default::default() };
-        Self::with_options(system, options)
+        let options = DerivationOptions::of(system)
+            .map_err(|error| DerivationError::Environment { error, step: 0 })?;
+        Self::with_options(system, DerivationOptions { seed: seed.into(), limits, ..options })
     }
 
     /// Begins with the axiom: runs the start blocks of the file and fills its queries.
@@ -254,14 +219,19 @@ impl<'a> Derivation<'a> {
     }
 
     /// Ends the derivation: runs the end blocks of the file, and writes its files out.
-    pub fn finish(mut self) -> Derived<ModuleString> {
+    pub fn finish(self) -> Derived<ModuleString> {
+        Ok(self.finish_with_output()?.0)
+    }
+
+    /// Likewise, with everything that the model has printed.
+    pub fn finish_with_output(mut self) -> Derived<(ModuleString, String)> {
         for part in &self.system.systems {
             self.block(&part.blocks.end, "end:")?;
         }
         if let Err(message) = self.machine.output.finish() {
             return Err(self.fault(message, "end:"));
         }
-        Ok(self.string)
+        Ok((self.string, self.machine.output.text))
     }
 
     /// What the string looks like now: after the productions of the `homomorphism:` part.
