@@ -167,6 +167,18 @@ def live(
     serve(world, seed=seed, host=host, port=port, token=token, open_browser=not no_open, say=say)
 
 
+@command("contour", "bioscope contour")
+@click.option(
+    "--port", type=click.IntRange(1, 65535), default=8775, help="Port; the next free one."
+)
+@click.option("--no-open", is_flag=True, help="Do not open a browser.")
+def contour(port: int, no_open: bool) -> None:
+    """Fit a mesh to a picture of a fish in the browser and save its texture coordinates."""
+    from bioscope.live.contour import serve
+
+    serve(port=port, open_browser=not no_open, say=say)
+
+
 @command("film", "bioscope film reef -o reef.mp4 --seconds 10 --seed 7")
 @world_name
 @path_option("-o", "--output", metavar="FILE.mp4", help="What to write.")

@@ -1,0 +1,208 @@
+"""The contour page in a browser: a mesh locks to a pictured fish, texture coordinates come out."""
+
+import json
+import re
+import signal
+import subprocess
+import sys
+import urllib.request
+from io import BytesIO
+
+import numpy as np
+import pytest
+from PIL import Image
+from playwright.sync_api import sync_playwright
+from test_page import CHROMIUM
+from test_server import free_port
+
+pytestmark = pytest.mark.browser
+
+WIDTH, HEIGHT = 480, 320
+CENTER = np.array([240.0, 160.0])
+
+
+@pytest.fixture(scope="module")
+def address():
+    command = [sys.executable, "-m", "bioscope.cli", "contour", "--no-open"]
+    process = subprocess.Popen(
+        [*command, "--port", str(free_port())], stderr=subprocess.PIPE, text=True
+    )
+    found = re.search(r"contours at (http://\S+)", process.stderr.readline())
+    yield found[1]
+    process.send_signal(signal.SIGINT)
+    assert process.wait(15) == 130
+    process.kill()
+
+
+def half_height(along):
+    """Half the height of the drawn body at places along it, -1 (snout) to 1 (root of the tail)."""
+    inside = np.abs(along) < 1
+    return np.where(inside, 95 * np.sqrt(np.maximum(1 - along**2, 0)) * (1 - 0.3 * along), 0)
+
+
+def outline():
+    along = -np.cos(np.linspace(0, np.pi, 6000))
+    x = CENTER[0] + 180 * along
+    return np.concatenate(
+        [np.stack([x, CENTER[1] + side * half_height(along)], axis=1) for side in (-1, 1)]
+    )
+
+
+def picture():
+    """A striped body on a plain ground."""
+    y, x = np.mgrid[:HEIGHT, :WIDTH] + 0.5
+    inside = np.abs(y - CENTER[1]) < half_height((x - CENTER[0]) / 180)
+    shade = np.where(inside, 0.55 + 0.1 * np.sin(x / 9), 0.9)
+    rgb = np.stack([shade, 0.8 * shade, np.where(inside, 0.2, shade)], axis=2)
+    file = BytesIO()
+    Image.fromarray((255 * rgb).astype(np.uint8)).save(file, "PNG")
+    return {"name": "drawn.png", "mimeType": "image/png", "buffer": file.getvalue()}
+
+
+@pytest.fixture(scope="module")
+def browser():
+    if CHROMIUM is None:
+        pytest.fail("Chromium is missing: install it (Debian: apt install chromium)")
+    with sync_playwright() as playwright:
+        # The page draws in two dimensions: the processor is quicker at it than an imitated GPU.
+        browser = playwright.chromium.launch(
+            executable_path=CHROMIUM, args=["--no-sandbox", "--disable-gpu"]
+        )
+        yield browser
+        browser.close()
+
+
+@pytest.fixture
+def page(address, browser):
+    page = browser.new_page(viewport={"width": 1280, "height": 800})
+    page.set_default_timeout(120_000)
+    faults = []
+    page.on("pageerror", lambda error: faults.append(str(error)))
+    page.goto(address)
+    status(page, "paused")
+    page.set_input_files("input[type=file]", picture())
+    page.wait_for_timeout(300)
+    yield page
+    page.close()
+    assert not faults
+
+
+def status(page, text):
+    page.locator(".status", has_text=text).wait_for(timeout=120_000)
+
+
+def press(page, title):
+    page.get_by_role("button", name=title, exact=True).click()
+
+
+def table(page):
+    with page.expect_download() as download:
+        press(page, "Save coordinates (.json)")
+    return json.loads(download.value.path().read_text())
+
+
+def nodes(page):
+    """Places of the nodes in pixels of the picture: rows × columns × 2."""
+    return np.array(table(page)["coordinates"]) * [WIDTH, HEIGHT]
+
+
+def on_screen(point):
+    scale = 0.86 * min(1280 / WIDTH, 800 / HEIGHT)
+    return (
+        0.5 * (1280 - scale * WIDTH) + scale * point[0],
+        0.5 * (800 - scale * HEIGHT) + scale * point[1],
+    )
+
+
+def border(points):
+    return np.concatenate([points[0], points[-1], points[:, 0], points[:, -1]])
+
+
+def distances(points):
+    return np.linalg.norm(points[:, None] - outline()[None], axis=2).min(axis=1)
+
+
+@pytest.mark.capability("TF-054", "TF-059")
+def test_the_mesh_locks_to_the_outline(page):
+    press(page, "Settle")
+    status(page, "settled")
+    found = table(page)
+    assert (found["rows"], found["columns"]) == (9, 21)
+    coordinates = np.array(found["coordinates"])
+    assert coordinates.shape == (9, 21, 2)
+    assert np.isfinite(coordinates).all()
+    assert coordinates.min() >= 0
+    assert coordinates.max() <= 1
+    points = coordinates * [WIDTH, HEIGHT]
+    assert distances(border(points)).max() < 2
+    assert "0 folds" in page.locator(".status").text_content()
+    inner = points[1:-1, 1:-1]
+    around = points[:-2, 1:-1] + points[2:, 1:-1] + points[1:-1, :-2] + points[1:-1, 2:]
+    assert np.linalg.norm(inner - around / 4, axis=2).max() < 2
+
+
+@pytest.mark.capability("TF-055")
+def test_a_dragged_node_follows_the_cursor_and_goes_back(page):
+    press(page, "Settle")
+    status(page, "settled")
+    before = nodes(page)[0, 10]
+    to = before - [0, 14]
+    page.mouse.move(*on_screen(before))
+    page.mouse.down()
+    page.mouse.move(*on_screen(before - [0, 6]))
+    page.mouse.move(*on_screen(to))
+    status(page, "settled")
+    # The spring gives a little to the outline.
+    assert np.linalg.norm(nodes_while_held(page)[0, 10] - to) < 4
+    page.mouse.up()
+    page.wait_for_timeout(100)
+    status(page, "settled")
+    assert distances(nodes(page)[0, 10][None])[0] < 2
+
+
+def nodes_while_held(page):
+    """Places of the nodes, saved without the mouse, which is holding one."""
+    with page.expect_download() as download:
+        page.get_by_role("button", name="Save coordinates (.json)", exact=True).dispatch_event(
+            "click"
+        )
+    points = json.loads(download.value.path().read_text())["coordinates"]
+    return np.array(points) * [WIDTH, HEIGHT]
+
+
+@pytest.mark.capability("TF-056")
+def test_an_anchored_node_stays_near_its_anchor(page):
+    start = nodes(page)[8, 2]
+    assert distances(start[None])[0] > 8
+    page.mouse.dblclick(*on_screen(start))
+    status(page, "1 anchors")
+    press(page, "Settle")
+    status(page, "settled")
+    points = nodes(page)
+    assert np.linalg.norm(points[8, 2] - start) < 3
+    far = np.delete(border(points), [21 + column for column in range(6)], axis=0)
+    assert np.median(distances(far)) < 2
+
+
+@pytest.mark.capability("TF-058")
+def test_fins_have_a_mesh_of_their_own(page):
+    page.locator("select").first.select_option(label="fin, 2 × 12")
+    status(page, "2 × 12")
+    press(page, "Settle")
+    status(page, "settled")
+    points = nodes(page)
+    assert points.shape == (2, 12, 2)
+    assert distances(border(points)).max() < 2
+
+
+def test_what_is_no_picture_is_told(page):
+    page.set_input_files(
+        "input[type=file]", {"name": "letter.txt", "mimeType": "text/plain", "buffer": b"Dear"}
+    )
+    status(page, "letter.txt: no picture that this browser reads")
+
+
+def test_only_this_machine_is_answered(address):
+    request = urllib.request.Request(address, headers={"Host": "elsewhere.example"})
+    with pytest.raises(urllib.error.HTTPError, match="421"):
+        urllib.request.urlopen(request)
