@@ -8,7 +8,7 @@ const FIRST_WAIT = 0.5;
 const LONGEST_WAIT = 8;
 
 /** What the world's reasons to close a connection mean for the person. */
-const REFUSALS: Record<number, { reason: string; remedy: string }> = {
+export const REFUSALS: Record<number, { reason: string; remedy: string }> = {
   4001: {
     reason: "The world asks for a token.",
     remedy: "Open the address that the command line printed, with ?token=… at its end.",
