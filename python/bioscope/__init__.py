@@ -7,7 +7,7 @@
 60
 """
 
-from bioscope import gallery
+from bioscope import fish, gallery
 from bioscope._engine import VERSION as __version__  # noqa: N811 - the name Python uses
 from bioscope._engine import Batch, Camera, Material, Mesh, Points, Publication, Scene
 from bioscope._engine import View as WorldView
@@ -78,6 +78,7 @@ __all__ = [
     "World",
     "WorldView",
     "__version__",
+    "fish",
     "gallery",
     "load",
     "look",

@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, Literal
 
 from bioscope import _engine, minds
 from bioscope.populations.native import Asked, asked_text
 from bioscope.world.population import Native
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
     from bioscope.minds import Mind
+
+    AnyMind = Callable[[], Mind] | minds.FishMind | str
 
 Vector = tuple[float, float, float]
 
@@ -44,6 +46,9 @@ class FishSchool(Asked):
         Half axes of the ellipsoid in which they begin, metres; by size and number if not given.
     home
         Middle of their home range, metres.
+    mind
+        None for Reynolds' rules. With a mind (see `RoamingFish`) each fish decides for itself and
+        swims by its own muscles: whether they school is up to them.
     **parameters
         Any of the school's parameters; see `World.parameters`.
     """
@@ -56,8 +61,15 @@ class FishSchool(Asked):
         center: Vector = (0.0, -3.0, 0.0),
         half: Vector | None = None,
         home: Vector | None = None,
+        mind: AnyMind | None = None,
         **parameters: float,
     ) -> None:
+        if mind is not None:
+            radius = max(half) if half else 0.5 * count ** (1 / 3)
+            place = {"center": center, "radius": radius, "home": home}
+            options = {"species": _species(species), "count": count, "body": "muscle_swimmer"}
+            _with_mind(self, options | place, mind, parameters)
+            return
         options = {
             "species": _species(species),
             "count": count,
@@ -85,8 +97,18 @@ class RoamingFish(Asked):
     home
         Middle of their home range, metres; `center` if not given.
     mind
-        Called once per fish for a mind of your own (a `Mind` class will do); a roamer's if not
-        given.
+        A mind of the engine's by name (`intentions`, `behavior_network`, `free_flow`) or made by
+        one of those classes of `bioscope.minds`; or what is called once per fish for a mind of your
+        own (a `Mind` class will do). A roamer's if not given. With a mind of the engine's the
+        fishes have an artificial fish's senses: they see all within 15 times its size and smell
+        their food.
+    food
+        Species that they smell as food, with a mind of your own; the engine's know their own.
+    body
+        `muscle_swimmer`, moved by muscles that pull springs in water, or `swimmer`, by geometric
+        flight; the former with a mind of the engine's, the latter without, if not given.
+    females
+        Share of females among fishes with a mind of the engine's; the mind's habit if not given.
     **parameters
         Any of the population's parameters; see `World.parameters`.
     """
@@ -99,18 +121,33 @@ class RoamingFish(Asked):
         center: Vector = (0.0, -3.0, 0.0),
         radius: float = 1.0,
         home: Vector | None = None,
-        mind: Callable[[], Mind] | None = None,
+        mind: AnyMind | None = None,
+        females: float | None = None,
+        food: Sequence[str] = (),
+        body: Literal["swimmer", "muscle_swimmer"] | None = None,
         **parameters: float,
     ) -> None:
-        options = {
+        options: dict[str, Any] = {
             "species": _species(species),
             "count": count,
             "center": center,
             "radius": radius,
             "home": home,
+            "females": females,
+            "food": list(food),
+            "body": body,
         }
-        if mind is None:
-            super().__init__("roaming_fish", options, parameters)
-        else:
-            text = asked_text(options)
-            Native.__init__(self, _engine.fish_with_minds(text, mind, minds.kinds()))
+        _with_mind(self, options, mind, parameters)
+
+
+def _with_mind(
+    fish: Asked, options: dict[str, Any], mind: AnyMind | None, parameters: dict[str, float]
+) -> None:
+    """Make single fishes with a mind of the engine's, of the user's own, or a roamer's."""
+    if mind is not None and not isinstance(mind, (str, minds.FishMind)):
+        text = asked_text(options)
+        Native.__init__(fish, _engine.fish_with_minds(text, mind, minds.kinds()))
+        return
+    if mind is not None:
+        options["mind"] = minds.asked(mind).request
+    Asked.__init__(fish, "roaming_fish", options, parameters)

@@ -16,6 +16,9 @@ if TYPE_CHECKING:
 AnyField = TypeVar("AnyField", bound=Field | Current)
 
 
+Vector = tuple[float, float, float]
+
+
 class Environment:
     """The environment of one world; reached as `world.environment`."""
 
@@ -58,6 +61,25 @@ class Environment:
         if origin is None:
             origin = (-spacing * (columns - 1) / 2, -spacing * (rows - 1) / 2)
         self._world._engine.lay_terrain(array, origin, spacing)
+
+    def cylinder(self, base: Vector, top: Vector, radius: float) -> None:
+        """Put up a solid cylinder: animals steer round it and see nothing behind it.
+
+        It stands for the shape of something that a population shows; it is not drawn by itself.
+
+        Parameters
+        ----------
+        base, top
+            Middles of its ends, metres.
+        radius
+            Metres.
+
+        Raises
+        ------
+        InvalidValueError
+            For points that are not finite or the same, and radii of zero or less.
+        """
+        self._world._engine.add_cylinder(base, top, radius)
 
     def add(self, field: AnyField, name: str | None = None) -> AnyField:
         """Add something that acts at a distance; return it."""

@@ -66,6 +66,25 @@ class Resident:
         figures = self.world.statistics().items()
         return {name.removeprefix(prefix): one for name, one in figures if name.startswith(prefix)}
 
+    def values(self, name: str) -> NDArray[Any]:
+        """Return one value of the inner life of every individual, in the order of their ids.
+
+        Parameters
+        ----------
+        name
+            `id`, `intention`, `target` (0 for nobody), or whatever minds and bodies tell: `hunger`,
+            `libido`, `fear`, `speed_m_per_s`, …
+
+        Raises
+        ------
+        UnknownNameError
+            If they have nothing of this name.
+        """
+        found = self.world._engine.values(self.name, name)
+        if found is None:
+            raise UnknownNameError(f"'{self.name}' has no values '{name}' of its individuals")
+        return np.array(found)
+
     def _settled(self, world: World, name: str) -> None:
         self._world, self.name = world, name
 

@@ -14,9 +14,7 @@ use crate::attention::{
 };
 use crate::drives::Drives;
 use crate::nature::{Nature, Temper};
-use crate::routines::{
-    Avoidance, Command, Courtship, Escape, Stage, Wandering, choose_food, eat, school,
-};
+use crate::routines::{Avoidance, Command, Courtship, Escape, Wandering, choose_food, eat, school};
 
 /// Nature, temper, drives and skills of a fish.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -63,14 +61,15 @@ impl Character {
     /// What threatens to collide, as its sensitivity region has it now.
     pub fn threat<'a>(&self, situation: &Situation<'a>) -> Option<Threat<'a>> {
         let factor = if self.formation { 0.5 } else { 1.0 };
-        let partner =
-            if self.courtship.stage > Stage::Follow { self.courtship.partner } else { NOTHING };
-        let region = Region::new(&self.temper, factor, partner);
+        let region = Region::new(&self.temper, factor, self.courtship.partner);
         Threat::worst(situation, &region, &self.temper)
     }
 
-    /// The preferences beside this focus of attention.
+    /// The preferences beside this focus of attention, for behaviors that heed them.
     pub fn preferences(&self, situation: &Situation, focus: &Focus) -> Preferences {
+        if matches!(focus.behavior, Behavior::School | Behavior::Leave | Behavior::Wander) {
+            return Preferences::default();
+        }
         let strengths = Strengths::beside(focus.behavior, &self.drives);
         preferences(situation, &strengths, focus)
     }
@@ -97,9 +96,12 @@ impl Character {
                 let target = if let Threat::Animal(one) = threat { one.id } else { NOTHING };
                 (command, target)
             }),
-            Behavior::Escape => situation.worst_enemy().map(|(enemy, _)| {
-                let command = self.escape.command(enemy, situation, preferences, &self.temper);
-                (command, enemy.id)
+            Behavior::Escape => Some(match situation.worst_enemy() {
+                Some((enemy, _)) => {
+                    let command = self.escape.command(enemy, situation, preferences, &self.temper);
+                    (command, enemy.id)
+                }
+                None => (Command::ahead(self.temper.full_speed), NOTHING),
             }),
             Behavior::School => {
                 let leader = situation.leader.map_or(NOTHING, |leader| leader.id);
@@ -176,7 +178,8 @@ impl Character {
     }
 
     fn display(&self, deed: &Deed, time: f64) -> Display {
-        let courts = deed.behavior == Behavior::Mate;
+        // A courtship that is interrupted for a moment still shows.
+        let courts = deed.behavior == Behavior::Mate || self.courtship.lasts(time);
         let act = match self.courtship.act(time, courts) {
             Act::Other => match deed.behavior {
                 Behavior::School => Act::Schooling,

@@ -152,6 +152,11 @@ impl Spine {
         (ORIGIN - share) * self.length
     }
 
+    /// Where a link begins, as a share of the length; the last ends at 1.
+    pub(crate) fn cut(&self, link: usize) -> f32 {
+        self.cuts[link]
+    }
+
     /// The joints at rest, for the skin of a mesh.
     pub fn joints(&self) -> Vec<Joint> {
         let links = self.cuts[..self.masses.len()].iter().enumerate().map(|(link, &cut)| Joint {
@@ -331,6 +336,11 @@ pub fn spine_pose(spine: &Spine, swim: &SwimState, out: &mut [Transform]) {
 
 /// Writes the poses of the fins, which `out` has after those of the links that carry them.
 pub(crate) fn hinge_poses(spine: &Spine, swim: &SwimState, out: &mut [Transform]) {
+    pose_hinges(spine, swim, out);
+}
+
+/// Writes the poses of the fins, which go with the links that carry them: those must be posed already.
+pub(crate) fn pose_hinges(spine: &Spine, swim: &SwimState, out: &mut [Transform]) {
     for (number, hinge) in spine.hinges.iter().enumerate() {
         let carrier = spine.carrier(hinge);
         let rest = Vec3::new(0.0, 0.0, spine.along(spine.cuts[carrier]));

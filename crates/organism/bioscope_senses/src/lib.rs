@@ -17,7 +17,7 @@ mod surroundings;
 mod tests;
 mod touch;
 
-pub use eye::{Eye, EyeParameters, Side, eye_camera, paired_eye};
+pub use eye::{Eye, EyeParameters, eye_camera};
 pub use hearing::{Hearing, HearingParameters};
 pub use lateral_line::LateralLine;
 pub use light::Light;

@@ -11,7 +11,7 @@ use serde::de::DeserializeOwned;
 
 use crate::animals::{Animal, Animals, AnimalsOptions, Kinds, Place};
 use crate::drifters::{Bubbles, Plankton};
-use crate::fish::{self, FishSchool, FishSchoolOptions, FishSpecies};
+use crate::fish::{self, BodyKind, FishSchool, FishSchoolOptions, FishSpecies, MindRequest};
 use crate::plants::Plants;
 use crate::scenery::{Corals, Ground, Props, Rocks};
 
@@ -110,6 +110,27 @@ struct Roaming {
     center: Vec3,
     radius: f32,
     home: Option<Vec3>,
+    /// A mind of the engine's; a roamer's if none is asked for.
+    mind: Option<MindRequest>,
+    /// Share of females among them, where they have such a mind.
+    females: Option<f32>,
+    /// Species that they smell as food, where they have no such mind, which knows its own.
+    #[serde(default)]
+    food: Vec<Arc<str>>,
+    /// How they are moved; by muscles if they have such a mind, by geometric flight if not.
+    body: Option<BodyKind>,
+}
+
+impl Roaming {
+    /// The mind asked for, for the fish of this number: females are spread evenly.
+    fn mind(&self, number: usize) -> Option<MindRequest> {
+        let mut request = self.mind.clone()?;
+        if let Some(share) = self.females {
+            let females = |count: usize| (count as f64 * f64::from(share)).floor();
+            request.nature.habits.female = females(number + 1) > females(number);
+        }
+        Some(request)
+    }
 }
 
 /// Single fishes as `options` (a JSON object) asks for them, each with the mind that `mind` makes; `kinds`
@@ -124,12 +145,19 @@ pub fn fish_with_minds(
         let expected = format!("up to {MOST_SINGLE_FISHES}");
         return Err(Error::value("count", asked.count, expected));
     }
+    if let Some(share) = asked.females.filter(|share| !(0.0..=1.0).contains(share)) {
+        return Err(Error::value("females", share, "a share from 0 to 1"));
+    }
     let species = asked.species.get()?;
     let look = fish::look(&species);
-    let animals = (0..asked.count).map(|_| {
+    let animals = (0..asked.count).map(|number| {
+        if let Some(request) = asked.mind(number) {
+            let body = asked.body.unwrap_or(BodyKind::MuscleSwimmer);
+            return fish::minded(&species, &look, &request, body);
+        }
         let mind = mind();
         let foreign = mind.is_some();
-        let animal = fish::roaming(&species, &look, mind)?;
+        let animal = fish::roaming(&species, &look, mind, &asked.food, asked.body.unwrap_or_default())?;
         Ok(Animal { may_fail: foreign, ..animal })
     });
     let place = Some(Place { center: asked.center, radius: asked.radius });

@@ -8,6 +8,7 @@ mod arrays;
 mod camera;
 mod error;
 mod field;
+mod fish_mind;
 mod flock;
 mod lsystem;
 mod material;
@@ -21,6 +22,7 @@ mod rig;
 mod scene;
 mod skin;
 mod stream;
+mod tank;
 mod values;
 mod view;
 mod world;
@@ -37,6 +39,8 @@ mod _engine {
     use super::camera::Camera;
     #[pymodule_export]
     use super::field::{Field, current};
+    #[pymodule_export]
+    use super::fish_mind::FishMind;
     #[pymodule_export]
     use super::flock::Flock;
     #[pymodule_export]
@@ -59,6 +63,8 @@ mod _engine {
     use super::scene::{Batch, Points, Scene};
     #[pymodule_export]
     use super::stream::Encoder;
+    #[pymodule_export]
+    use super::tank::Tank;
     #[pymodule_export]
     use super::view::View;
     #[pymodule_export]

@@ -1,6 +1,9 @@
 use std::sync::Arc;
 
-use bioscope_core::{Annotation, Error, Intention, Mark, Percepts, Random, Result, Vec3};
+use bioscope_core::{
+    Act, Annotation, Display, Error, Intention, Mark, NOTHING, Percepts, Random, Result, Sex,
+    Sighting, Vec3,
+};
 use bioscope_minds::Mind;
 use bioscope_populations::animals::Kinds;
 use bioscope_populations::catalog;
@@ -101,6 +104,7 @@ fn percepts_dict<'py>(
     random: &mut Random,
 ) -> PyResult<Bound<'py, PyDict>> {
     let dict = PyDict::new(py);
+    dict.set_item("id", percepts.id)?;
     dict.set_item("time", percepts.time)?;
     dict.set_item("dt", percepts.dt)?;
     dict.set_item("velocity", percepts.velocity.to_array())?;
@@ -112,17 +116,19 @@ fn percepts_dict<'py>(
     dict.set_item("light", percepts.light)?;
     dict.set_item("temperature", percepts.temperature)?;
     dict.set_item("random", [(); 4].map(|()| random.uniform()))?;
-    let seen = PyList::empty(py);
-    for one in &percepts.seen {
-        let sighting = PyDict::new(py);
-        sighting.set_item("id", one.id)?;
-        sighting.set_item("species", &*one.species)?;
-        sighting.set_item("position", one.position.to_array())?;
-        sighting.set_item("velocity", one.velocity.to_array())?;
-        sighting.set_item("size", one.size)?;
-        seen.append(sighting)?;
+    dict.set_item("seen", sightings(py, &percepts.seen)?)?;
+    dict.set_item("smelled", sightings(py, &percepts.smelled)?)?;
+    dict.set_item("fed", percepts.fed)?;
+    dict.set_item("solids", percepts.solids.iter().map(Vec3::to_array).collect::<Vec<_>>())?;
+    if let Some(retina) = &percepts.retina {
+        let view = PyDict::new(py);
+        view.set_item("width", retina.width)?;
+        view.set_item("height", retina.height)?;
+        view.set_item("color", retina.color.clone())?;
+        view.set_item("range", retina.range.clone())?;
+        view.set_item("identity", retina.identity.clone())?;
+        dict.set_item("retina", view)?;
     }
-    dict.set_item("seen", seen)?;
     let ahead = match percepts.ahead {
         None => py.None().into_bound(py),
         Some(impact) => {
@@ -147,6 +153,74 @@ fn percepts_dict<'py>(
     Ok(dict)
 }
 
+fn sightings<'py>(py: Python<'py>, all: &[Sighting]) -> PyResult<Bound<'py, PyList>> {
+    let list = PyList::empty(py);
+    for one in all {
+        let sighting = PyDict::new(py);
+        sighting.set_item("id", one.id)?;
+        sighting.set_item("species", &*one.species)?;
+        sighting.set_item("position", one.position.to_array())?;
+        sighting.set_item("velocity", one.velocity.to_array())?;
+        sighting.set_item("heading", one.heading.to_array())?;
+        sighting.set_item("size", one.size)?;
+        sighting.set_item("color", one.color)?;
+        sighting.set_item("display", display_dict(py, &one.display)?)?;
+        list.append(sighting)?;
+    }
+    Ok(list)
+}
+
+/// What an animal shows, as a dict.
+pub fn display_dict<'py>(py: Python<'py>, display: &Display) -> PyResult<Bound<'py, PyDict>> {
+    let dict = PyDict::new(py);
+    dict.set_item("sex", sex_name(display.sex))?;
+    dict.set_item("act", display.act.name())?;
+    dict.set_item("partner", (display.partner != NOTHING).then_some(display.partner))?;
+    Ok(dict)
+}
+
+fn sex_name(sex: Sex) -> Option<&'static str> {
+    match sex {
+        Sex::Unknown => None,
+        Sex::Female => Some("female"),
+        Sex::Male => Some("male"),
+    }
+}
+
+/// What an animal shows, from a dict with any of `sex`, `act` and `partner`.
+pub fn display(asked: &Bound<'_, PyDict>) -> PyResult<Display> {
+    let mut display = Display::NONE;
+    for (name, value) in asked.iter() {
+        match name.extract::<String>()?.as_str() {
+            "sex" => display.sex = sex(value.extract()?)?,
+            "act" => display.act = act(&value.extract::<String>()?)?,
+            "partner" => display.partner = value.extract::<Option<u32>>()?.unwrap_or(NOTHING),
+            other => return Err(unknown("part of a display", other, &["sex", "act", "partner"])),
+        }
+    }
+    Ok(display)
+}
+
+fn sex(name: Option<String>) -> PyResult<Sex> {
+    match name.as_deref() {
+        None => Ok(Sex::Unknown),
+        Some("female") => Ok(Sex::Female),
+        Some("male") => Ok(Sex::Male),
+        Some(other) => Err(unknown("sex", other, &["female", "male"])),
+    }
+}
+
+fn act(name: &str) -> PyResult<Act> {
+    let known = Act::ALL.map(Act::name);
+    Act::ALL.into_iter().find(|act| act.name() == name).ok_or_else(|| unknown("act", name, &known))
+}
+
+/// The error for a name that is not known.
+pub fn unknown(kind: &'static str, name: &str, known: &[&str]) -> PyErr {
+    let known = known.iter().map(|&one| one.to_owned()).collect();
+    to_python(Error::Unknown { kind, name: name.to_owned(), known })
+}
+
 /// An intention from the dict that a Python mind returned; every number must be finite.
 fn intention(wanted: &Bound<'_, PyDict>) -> PyResult<Intention> {
     let mut intention = Intention { speed: 1.0, urgency: 0.5, ..Intention::default() };
@@ -158,20 +232,23 @@ fn intention(wanted: &Bound<'_, PyDict>) -> PyResult<Intention> {
             "urgency" => intention.urgency = number("urgency", &value)?,
             "gaze" => intention.gaze = Some(vector("gaze", &value)?),
             "target" => intention.target = value.extract()?,
+            "brake" => intention.brake = number("brake", &value)?.clamp(0.0, 1.0),
+            "mouth" => intention.mouth = number("mouth", &value)?.clamp(0.0, 1.0),
+            "display" => intention.display = display(&value.cast_into::<PyDict>()?)?,
             other => {
-                let known = ["behavior", "heading", "speed", "urgency", "gaze", "target"];
-                return Err(to_python(Error::Unknown {
-                    kind: "part of an intention",
-                    name: other.to_owned(),
-                    known: known.map(str::to_owned).to_vec(),
-                }));
+                let known = [
+                    "behavior", "heading", "speed", "urgency", "gaze", "target", "brake", "mouth",
+                    "display",
+                ];
+                return Err(unknown("part of an intention", other, &known));
             }
         }
     }
     Ok(intention)
 }
 
-fn vector(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Vec3> {
+/// Three finite numbers.
+pub fn vector(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Vec3> {
     let vector = Vec3::from_array(value.extract()?);
     if vector.is_finite() {
         return Ok(vector);
@@ -179,7 +256,8 @@ fn vector(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Vec3> {
     Err(to_python(Error::value(name, vector, "three finite numbers")))
 }
 
-fn number(name: &str, value: &Bound<'_, PyAny>) -> PyResult<f32> {
+/// A finite number.
+pub fn number(name: &str, value: &Bound<'_, PyAny>) -> PyResult<f32> {
     let number: f32 = value.extract()?;
     if number.is_finite() {
         return Ok(number);

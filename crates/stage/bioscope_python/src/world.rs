@@ -1,8 +1,8 @@
 use std::sync::{Mutex, PoisonError};
 use std::thread::{self, ThreadId};
 
-use bioscope_core::{Error, Result};
-use bioscope_geometry::Terrain;
+use bioscope_core::{Error, Result, Vec3};
+use bioscope_geometry::{Obstacle, Terrain};
 use bioscope_world::Registry;
 use numpy::{PyArrayMethods, PyReadonlyArray2};
 use pyo3::IntoPyObjectExt;
@@ -250,6 +250,27 @@ impl World {
         })
     }
 
+    /// Puts up an invisible cylinder that stands in the way and hides what is behind it.
+    fn add_cylinder(
+        &self,
+        py: Python<'_>,
+        base: [f32; 3],
+        top: [f32; 3],
+        radius: f32,
+    ) -> PyResult<()> {
+        let (base, top) = (Vec3::from_array(base), Vec3::from_array(top));
+        let sound = base.is_finite() && top.is_finite() && base != top;
+        if !(sound && radius.is_finite() && radius > 0.0) {
+            let found = format!("from {base} to {top}, radius {radius}");
+            let expected = "two different finite points and a radius above 0, metres";
+            return Err(to_python(Error::value("cylinder", found, expected)));
+        }
+        self.with(py, |world| {
+            world.environment.obstacles.push(Obstacle::Cylinder { base, top, radius });
+            Ok(())
+        })
+    }
+
     /// Heights (rows along z, columns along x), origin and spacing of the terrain; none without.
     #[getter]
     fn terrain<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
@@ -309,6 +330,17 @@ impl World {
         let eye = inspection.eye.map(|camera| Bound::new(py, Camera { camera })).transpose()?;
         dict.set_item("eye", eye)?;
         Ok(Some(dict))
+    }
+
+    /// One value of every individual of a population; none where there is no such value.
+    fn values<'py>(
+        &self,
+        py: Python<'py>,
+        population: &str,
+        name: &str,
+    ) -> PyResult<Option<Vec<Bound<'py, PyAny>>>> {
+        let found = self.with(py, |world| Ok(world.values(population, name)))?;
+        found.map(|all| all.iter().map(|one| values::to_python(py, one)).collect()).transpose()
     }
 
     fn statistics<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {

@@ -67,6 +67,12 @@ pub trait Population: Send {
         None
     }
 
+    /// One value of the inner life of every individual, in the order of its identities; none if they have
+    /// nothing of this name.
+    fn values(&self, _name: &str) -> Option<Vec<Value>> {
+        None
+    }
+
     /// Figures for charts, by name (with the unit in the name where there is one).
     fn statistics(&self) -> BTreeMap<String, f64> {
         BTreeMap::from([(String::from("count"), self.count() as f64)])

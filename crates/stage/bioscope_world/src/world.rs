@@ -1,7 +1,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use bioscope_core::{Error, Event, Id, Parameter, Parameters, Result, SoundEvent};
+use bioscope_core::{Error, Event, Id, Parameter, Parameters, Result, SoundEvent, Value};
 use bioscope_dynamics::Field;
 use bioscope_geometry::{Rig, Scene};
 
@@ -242,6 +242,13 @@ impl World {
         self.populations
             .iter()
             .find_map(|one| Some((one.name.as_str(), one.population.inspect(individual)?)))
+    }
+
+    /// One value of the inner life of every individual of a population; none if there is no such population
+    /// or value.
+    pub fn values(&self, population: &str, name: &str) -> Option<Vec<Value>> {
+        let found = self.populations.iter().find(|one| one.name == population)?;
+        found.population.values(name)
     }
 
     /// Figures of all populations for charts, as `population.figure`.

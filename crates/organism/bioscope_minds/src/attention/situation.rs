@@ -32,6 +32,8 @@ pub struct Situation<'a> {
     pub mates: Vec<&'a Sighting>,
     /// Own kind in view within the radius of a school, nearest first.
     pub school: Vec<&'a Sighting>,
+    /// Number and mean place of its own kind in view beyond that radius.
+    pub strays: (u32, Vec3),
     /// Whom it follows, if it sees one.
     pub leader: Option<&'a Sighting>,
     /// What each of those in view is to it, in their order.
@@ -50,12 +52,14 @@ impl<'a> Situation<'a> {
             food: Vec::new(),
             mates: Vec::new(),
             school: Vec::new(),
+            strays: (0, Vec3::ZERO),
             leader: None,
             relations,
         };
         for (index, one) in percepts.seen.iter().enumerate() {
             situation.sort_in(one, situation.relations[index], nature, temper);
         }
+        situation.strays.1 /= situation.strays.0.max(1) as f32;
         for one in &percepts.smelled {
             if !situation.food.iter().any(|known| known.sighting.id == one.id) {
                 let morsel = situation.morsel(one, Role::Prey, temper);
@@ -76,6 +80,9 @@ impl<'a> Situation<'a> {
         }
         if relation == Relation::Kin && distance <= temper.school_radius {
             self.school.push(one);
+        } else if relation == Relation::Kin {
+            self.strays.0 += 1;
+            self.strays.1 += one.position;
         }
         if nature.role.courts() && nature.might_mate(one) {
             self.mates.push(one);
@@ -115,6 +122,11 @@ impl<'a> Situation<'a> {
     pub fn worst_enemy(&self) -> Option<(&'a Sighting, f32)> {
         let all = self.enemies.iter().copied();
         all.reduce(|worst, one| if one.1 > worst.1 { one } else { worst })
+    }
+
+    /// Whether anybody is in view with whom to school.
+    pub fn company(&self) -> bool {
+        self.leader.is_some() || !self.school.is_empty() || self.strays.0 > 0
     }
 
     /// What is seen or smelled of one individual.

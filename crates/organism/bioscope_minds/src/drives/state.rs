@@ -1,4 +1,4 @@
-use bioscope_core::Random;
+use bioscope_core::{Random, math};
 use serde::{Deserialize, Serialize};
 
 use super::stimulus;
@@ -62,7 +62,8 @@ impl Drives {
         let mate = pull(stirring.mate, temper.mate_near, temper.mate_far);
         let urge = temper.libido_growth * self.since_mating * (1.0 - self.hunger);
         self.libido = (urge + temper.mate_weight * mate).clamp(0.0, 1.0);
-        self.fear = stirring.fear.min(1.0);
+        let calmed = self.fear * (1.0 - math::relaxation(stirring.dt, temper.alarm_time));
+        self.fear = stirring.fear.min(1.0).max(calmed);
     }
 
     /// Takes note of having mated.

@@ -94,7 +94,7 @@ impl Generator {
     fn resume(&mut self, situation: &Situation) -> Option<Kept> {
         let kept = self.memory.take_if(|kept| !kept.opportunity)?;
         let possible = match kept.behavior {
-            Behavior::School => !situation.school.is_empty() || situation.leader.is_some(),
+            Behavior::School => situation.company(),
             _ => kept.target != NOTHING && situation.find(kept.target).is_some(),
         };
         possible.then_some(kept)
@@ -168,15 +168,16 @@ fn afraid(
     if !nature.role.flees() || drives.fear <= temper.fear_threshold {
         return None;
     }
-    let (_, worst) = situation.worst_enemy()?;
+    // A predator that is felt but not seen is behind.
+    let worst = situation.worst_enemy().map_or(drives.fear, |(_, fear)| fear);
     let bearable = worst < temper.panic_threshold && nature.habits.school;
     Some(if bearable { Behavior::School } else { Behavior::Escape })
 }
 
 /// What is done without need: schooling for company, leaving an uncomfortable place, wandering.
 fn idle(situation: &Situation, nature: &Nature, temper: &Temper) -> Behavior {
-    let company = situation.leader.is_some() || !situation.school.is_empty();
-    if nature.role.flees() && nature.habits.school && temper.sociable > 0.5 && company {
+    let sociable = nature.habits.school && temper.sociable > 0.5;
+    if nature.role.flees() && sociable && situation.company() {
         Behavior::School
     } else if nature.role != Role::Predator && situation.discomfort(nature, temper) > 0.0 {
         Behavior::Leave

@@ -8,7 +8,7 @@ use crate::nature::{Habits, Nature, Role, Temper};
 use crate::{BehaviorNetwork, FreeFlow, Mind};
 
 fn temper() -> Temper {
-    Temper { stagger: 0.0, ..Temper::default() }
+    Temper { stagger: 0.0, alarm_time: 0.0, ..Temper::default() }
 }
 
 fn nature(role: Role, school: bool) -> Nature {

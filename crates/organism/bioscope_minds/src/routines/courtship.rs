@@ -137,6 +137,11 @@ impl Courtship {
         (Some(command), spawned)
     }
 
+    /// Whether it has a partner of whom it knew a moment ago.
+    pub fn lasts(&self, now: f64) -> bool {
+        self.partner != NOTHING && now - self.seen <= PATIENCE
+    }
+
     fn begin(&mut self, partner: Id, now: f64) {
         self.partner = partner;
         let stage = if partner == NOTHING { Stage::Seek } else { Stage::Follow };

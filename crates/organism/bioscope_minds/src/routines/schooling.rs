@@ -10,6 +10,8 @@ use crate::nature::Temper;
 const TOLERANCE: f32 = PI / 10.0;
 /// Neighbors that it heeds, the nearest first.
 const HEEDED: usize = 7;
+/// Share of the spacing by which a gap may be wider before it is closed.
+const SLACK: f32 = 0.3;
 /// Distance of the nearest neighbor beyond which it hurries to the school, body lengths.
 const APART: f32 = 3.0;
 
@@ -27,7 +29,8 @@ pub fn school(situation: &Situation, temper: &Temper) -> Option<Command> {
         Some(chase(&goal, length, own_speed, temper))
     };
     match (nearest, situation.leader) {
-        (None, None) => None,
+        (None, None) if situation.strays.0 == 0 => None,
+        (None, None) => follow(situation.strays.1, Vec3::ZERO),
         (None, Some(leader)) => follow(leader.position, leader.velocity),
         (Some(distance), leader) if distance > APART * length => match leader {
             Some(leader) => follow(leader.position, leader.velocity),
@@ -45,16 +48,23 @@ fn in_formation(situation: &Situation, leader: Option<&Sighting>, temper: &Tempe
     let neighbors = &situation.school[..situation.school.len().min(HEEDED)];
     let (middle, velocity) = mean(neighbors);
     let course = neighbors.iter().map(|one| one.heading).sum::<Vec3>().normalize_or_zero();
-    // Towards each neighbor that is farther than the spacing, away from those that are nearer.
+    // Towards each neighbor that is much farther than the spacing, away from those that are nearer.
     let spacing = temper.spacing * length;
     let pull = |place: Vec3| {
-        let excess = (place.length() - spacing) / spacing;
-        let weight = if excess > 0.0 { 0.35 * excess.min(2.0) } else { 1.6 * excess };
+        let excess = place.length() / spacing - 1.0;
+        let weight = 0.35 * (excess - SLACK).clamp(0.0, 2.0) + 4.0 * excess.min(0.0);
         place.normalize_or_zero() * weight
     };
     let gaps =
         neighbors.iter().map(|one| pull(one.position)).sum::<Vec3>() / neighbors.len() as f32;
     let (mut wanted, mut pace) = (course + gaps, velocity.length());
+    let (strays, place) = situation.strays;
+    if strays > 0 {
+        // Two parts of a school close: the smaller turns more, and hurries if it is behind.
+        let share = strays as f32 / (strays as usize + situation.school.len()) as f32;
+        wanted += place.normalize_or_zero() * (0.8 * share);
+        pace *= 1.0 + 0.5 * share * place.normalize_or_zero().z.max(-0.5);
+    }
     if let Some(leader) = leader {
         let behind = leader.position.length() / length - 2.0 * temper.spacing;
         wanted += leader.heading * 0.5

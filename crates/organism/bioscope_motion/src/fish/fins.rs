@@ -33,12 +33,12 @@ impl Default for Fins {
 }
 
 impl Fins {
-    /// Sets the fins as commanded and as pitch and roll ask for, and returns the force of the left and of the right one.
+    /// Sets the fins as commanded and as pitch, roll and the bend of the body ask for, and returns the force of the left and of the right one.
     pub(super) fn advance(
         &mut self,
         settings: &FinSettings,
         command: &Command,
-        feeling: &Feeling,
+        (feeling, bend): (&Feeling, f32),
         dt: f32,
     ) -> [Vec3; 2] {
         let (pitch, roll) = (feeling.frame.pitch(), feeling.frame.roll());
@@ -59,9 +59,9 @@ impl Fins {
         };
         let lean = effort(settings.roll, roll, rates[1]);
         let brake = command.brake.clamp(0.0, 1.0);
-        self.angles = [-lean, lean].map(|lean| {
+        self.angles = [(-lean, bend), (lean, -bend)].map(|(lean, inner)| {
             let angle = NEUTRAL + (lift + lean).clamp(-GREATEST, GREATEST);
-            angle + (PI - angle) * brake
+            angle + (PI - angle) * brake.max(inner * settings.yaw as f32)
         });
         self.stroke(command, dt);
         let row = self.row(settings, command, feeling);

@@ -4,7 +4,7 @@ use bioscope_dynamics::spring_body::{Body, Dispatch, Triple, Workspace, signed_v
 use serde::{Deserialize, Serialize};
 
 use super::frame::Frame;
-use super::model::FishModel;
+use super::model::{FishDesign, FishModel};
 use super::motor::{Effort, Feeling, Motor};
 
 /// What a fish is beside its nodes.
@@ -130,17 +130,7 @@ impl<R: Dispatch> Group<R> {
             for (muscle, value) in wanted.iter_mut().zip(contraction) {
                 muscle.set_lane(lane, f64::from(value));
             }
-            let weights = model.design.fins.weights;
-            for ring in 0..3 {
-                for corner in 0..4 {
-                    let share = 0.5 * weights[ring];
-                    let force = fins[corner / 2];
-                    for axis in 0..3 {
-                        let value = f64::from(force[axis]) * share;
-                        desk.push[4 * ring + 1 + corner][axis].set_lane(lane, value);
-                    }
-                }
-            }
+            push_fins(model, fins, &mut desk.push, lane);
         }
         /// Greatest change of a muscle's normalized length in a published step of 0.055.
         const QUICKEST: f64 = 0.075 / 0.055;
@@ -194,5 +184,24 @@ impl<R: Dispatch> Group<R> {
         let rotation = if rotation.is_finite() { rotation } else { bioscope_core::Quat::IDENTITY };
         self.put(model, lane, rotation);
         self.members[lane].repairs += 1;
+    }
+}
+
+/// Puts the forces of the left and the right pectoral fin on the first three rings, so that they act at the fins'
+/// distance from the axis.
+fn push_fins<R: Dispatch>(model: &FishModel, fins: [Vec3; 2], push: &mut [Triple<R>], lane: usize) {
+    let FishDesign { fins: settings, shape, .. } = &model.design;
+    for ring in 0..3 {
+        let wide = shape.half_widths[ring];
+        let outward = settings.arm.max(wide) / wide;
+        for corner in 0..4 {
+            let (near, far) = (fins[corner / 2], fins[1 - corner / 2]);
+            for axis in 0..3 {
+                let (near, far) = (f64::from(near[axis]), f64::from(far[axis]));
+                let force = near * (1.0 + outward) + far * (1.0 - outward);
+                let value = 0.25 * settings.weights[ring] * force;
+                push[4 * ring + 1 + corner][axis].set_lane(lane, value);
+            }
+        }
     }
 }

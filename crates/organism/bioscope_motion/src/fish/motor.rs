@@ -150,7 +150,7 @@ impl Motor {
         self.feel(feeling, dt);
         let turning = self.turn_or_hold(design, dt);
         self.beat(design, dt);
-        let fins = self.fins.advance(&design.fins, &self.command, feeling, dt);
+        let fins = self.fins.advance(&design.fins, &self.command, (feeling, self.bend), dt);
         Effort { contraction: self.contraction(design, turning), fins }
     }
 

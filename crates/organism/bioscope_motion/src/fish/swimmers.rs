@@ -194,6 +194,12 @@ impl<R: Dispatch> Swimmers<R> {
         self.individual_mut(index).activation = activation;
     }
 
+    /// Present contraction of the muscles, 0 to 1.
+    pub fn contraction(&self, index: usize) -> [f64; MUSCLES] {
+        let (group, lane) = self.group(index);
+        std::array::from_fn(|muscle| group.body.contraction[muscle].lane(lane))
+    }
+
     /// Sets the velocity of the water at a fish, metres per second.
     pub fn set_flow(&mut self, index: usize, flow: Vec3) {
         let scale = self.time_unit / self.individual(index).length;

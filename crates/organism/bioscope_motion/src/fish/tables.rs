@@ -128,6 +128,10 @@ pub struct FinSettings {
     pub area: f64,
     /// Share of the force on each of the first three rings.
     pub weights: [f64; 3],
+    /// Distance of the middle of a fin from the axis of the body, body lengths; 0 puts its force on the flank.
+    pub arm: f64,
+    /// How far the inner fin is spread against the water in the sharpest turn, 0 to 1.
+    pub yaw: f64,
     /// Fin angle per error of pitch, and per pitch rate times time unit.
     pub pitch: [f64; 2],
     /// Fin angle per error of roll, and per roll rate times time unit.
@@ -138,7 +142,7 @@ pub struct FinSettings {
 
 impl FinSettings {
     pub(super) fn check(&self) -> Result<()> {
-        let numbers = [self.area, self.oar].into_iter();
+        let numbers = [self.area, self.oar, self.arm, self.yaw].into_iter();
         let numbers = numbers.chain(self.weights).chain(self.pitch).chain(self.roll);
         for number in numbers {
             if !(0.0..=1e3).contains(&number) {

@@ -37,7 +37,7 @@ pub struct Turn {
 }
 
 /// How much longer than foreseen a bend may be held while the heading is watched.
-const PATIENCE: f32 = 5.0;
+const PATIENCE: f32 = 2.0;
 
 impl Turn {
     pub(super) fn new(table: &TurnTable, angle: f32, from: f32) -> Self {

@@ -28,34 +28,3 @@ pub fn eye_camera(placement: &Transform, body_length: f32, field_of_view: f32) -
         far: FAR,
     }
 }
-
-/// One of two eyes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Side {
-    /// The left one.
-    Left,
-    /// The right one.
-    Right,
-}
-
-/// The view of one of the two eyes of an animal of `body_length` metres at `placement`: `apart` body
-/// lengths from the other, turned by `pan` (to the left) and `tilt` (up), seeing `field_of_view`; angles in
-/// radians. Without pan and tilt it looks along the body.
-pub fn paired_eye(
-    placement: &Transform,
-    body_length: f32,
-    field_of_view: f32,
-    (side, apart): (Side, f32),
-    (pan, tilt): (f32, f32),
-) -> Camera {
-    let camera = eye_camera(placement, body_length, field_of_view);
-    let left = placement.rotation() * Vec3::X;
-    let offset = match side {
-        Side::Left => 0.5 * apart * body_length,
-        Side::Right => -0.5 * apart * body_length,
-    };
-    // In the camera's own axes: Y up, X to its right.
-    let turn = Quat::from_rotation_y(pan) * Quat::from_rotation_x(tilt);
-    let position = camera.position + left * offset;
-    Camera { position, rotation: camera.rotation * turn, ..camera }
-}

@@ -5,7 +5,7 @@ use bioscope_dynamics::Influence;
 use bioscope_geometry::{Batch, Material, Medium, Mesh, Projection, Scene, Sky, Sun, Transform};
 use proptest::prelude::*;
 
-use super::{Eye, EyeParameters, Side, eye_camera, paired_eye};
+use super::{Eye, EyeParameters, eye_camera};
 use crate::{Memory, Outlook, Sense, Surroundings};
 
 proptest! {
@@ -86,17 +86,4 @@ fn the_retina_shows_whom_how_far_and_how_bright() {
     assert!(retina.range[0].is_infinite() && retina.identity[0] == 0, "outside the round view");
     let twice = noticed(&wall(2.0)).light;
     assert!((twice / percepts.light - 2.0).abs() < 0.01, "{twice} {}", percepts.light);
-}
-
-#[test]
-fn two_eyes_stand_apart_and_pan_and_tilt() {
-    let attitude = Quat::from_rotation_y(0.7);
-    let placement = Transform::new(Vec3::Y, attitude, 1.0);
-    let eye = |side: Side, turn: (f32, f32)| paired_eye(&placement, 0.5, 2.0, (side, 0.2), turn);
-    let (left, right) = (eye(Side::Left, (0.0, 0.0)), eye(Side::Right, (0.0, 0.0)));
-    assert!((left.position - right.position - attitude * Vec3::X * 0.1).length() < 1e-5);
-    assert!((left.forward() - attitude * Vec3::Z).length() < 1e-5);
-    let panned = attitude.inverse() * eye(Side::Left, (0.5, 0.0)).forward();
-    assert!((panned - Vec3::new(0.5f32.sin(), 0.0, 0.5f32.cos())).length() < 1e-5, "{panned}");
-    assert!((attitude.inverse() * eye(Side::Left, (0.0, 0.4)).forward()).y > 0.3);
 }

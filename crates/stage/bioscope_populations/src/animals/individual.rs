@@ -1,11 +1,11 @@
 use std::sync::Arc;
 
-use bioscope_core::{Annotation, Error, Id, Intention, NOTHING, Percepts, Purpose, Result, Vec3};
+use bioscope_core::{Act, Annotation, Error, Id, Intention, NOTHING, Percepts, Purpose, Result, Vec3};
 use bioscope_dynamics::Influence;
 use bioscope_minds::Mind;
 use bioscope_motion::Body;
 use bioscope_senses::{Outlook, Sense, Surroundings};
-use bioscope_world::{Moment, View};
+use bioscope_world::{Environment, Moment, View};
 use serde::{Deserialize, Serialize};
 
 use super::Look;
@@ -13,8 +13,20 @@ use super::Look;
 const DECISION: Purpose = Purpose::new("mind of an animal");
 
 /// Behaviors whose beginning is worth an event, and the event's kind.
-const NOTEWORTHY: [(&str, &str); 3] =
-    [("dash", "dashed"), ("turn home", "turned home"), ("inspect", "inspected")];
+const NOTEWORTHY: [(&str, &str); 5] = [
+    ("dash", "dashed"),
+    ("turn home", "turned home"),
+    ("inspect", "inspected"),
+    ("escape", "escaped"),
+    ("school", "schooled"),
+];
+/// Stages of courtship that are worth an event, and the event's kind.
+const COURTSHIP: [(Act, &str); 4] = [
+    (Act::Courting, "courted"),
+    (Act::Circling, "circled"),
+    (Act::Nuzzling, "mated"),
+    (Act::Spawned, "spawned"),
+];
 /// Seconds in which the same is not reported twice of one animal.
 const QUIET: f64 = 3.0;
 
@@ -56,10 +68,21 @@ pub(super) struct Record {
     reported: [Option<f64>; NOTEWORTHY.len()],
     /// Which of them is reported in this tick.
     news: Option<usize>,
+    /// Whom it bites in this tick.
+    pub bite: Option<Id>,
+    /// What it has shown of a courtship so far, so that each stage is reported once.
+    shown: Act,
+    /// Stage of a courtship that is reported in this tick.
+    stage: Option<usize>,
 }
 
 impl Individual {
-    pub fn sense(&mut self, view: &View, outlook: &Outlook, influence: Influence) -> Result<()> {
+    pub fn sense(
+        &mut self,
+        view: &View,
+        outlook: &Outlook,
+        (influence, fed): (Influence, u32),
+    ) -> Result<()> {
         let environment = view.environment;
         let placement = self.parts.body.placement();
         let medium = environment.medium();
@@ -82,6 +105,7 @@ impl Individual {
             dt: view.moment.dt,
         };
         let mut percepts = surroundings.own_state();
+        percepts.fed = fed;
         for sense in &mut self.parts.senses {
             sense.sense(&surroundings, &mut percepts)?;
         }
@@ -97,16 +121,27 @@ impl Individual {
         let intention = mind.decide(&record.percepts, &mut random, &mut record.annotations)?;
         let changed = intention.behavior != record.intention.behavior;
         record.intention = intention;
+        record.bite = super::feeding::bite(record);
+        record.court();
         record.news = if changed { record.report(moment.time) } else { None };
         Ok(())
     }
 
-    pub fn advance(&mut self, view: &View, influence: &Influence) -> Result<()> {
+    /// Moves the body as intended; one of muscles is only told, and moved together with others.
+    pub fn drive(&mut self, influence: &Influence, dt: f32) -> Result<()> {
+        let (body, intention) = (&mut self.parts.body, &self.record.intention);
+        match body.muscles() {
+            Some(muscles) => muscles.obey(intention, influence, dt),
+            None => body.advance(intention, influence, dt),
+        }
+    }
+
+    /// Gets out of what it has run into.
+    pub fn arrive(&mut self, environment: &Environment) -> Result<()> {
         let body = &mut self.parts.body;
-        body.advance(&self.record.intention, influence, view.moment.dt)?;
         let reach = 0.25 * body.length();
         let position = body.placement().position;
-        body.shift(super::contact::way_out(position, reach, view.environment));
+        body.shift(super::contact::way_out(position, reach, environment));
         let placement = body.placement();
         let sound = placement.position.is_finite()
             && placement.rotation().is_finite()
@@ -131,9 +166,19 @@ impl Record {
         Some(index)
     }
 
-    /// Kind of this tick's event and whom it concerns, if there is one.
-    pub fn event(&self) -> Option<(&'static str, Option<Id>)> {
-        let (_, kind) = NOTEWORTHY.get(self.news?)?;
-        Some((kind, self.intention.target.filter(|&target| target != NOTHING)))
+    /// Takes note of the stage that a courtship has reached.
+    fn court(&mut self) {
+        let act = self.intention.display.act;
+        let reached = COURTSHIP.iter().position(|(one, _)| *one == act);
+        self.stage = reached.filter(|_| act != self.shown);
+        self.shown = act;
+    }
+
+    /// Kinds of this tick's events and whom they concern.
+    pub fn events(&self) -> impl Iterator<Item = (&'static str, Option<Id>)> {
+        let target = self.intention.target.filter(|&target| target != NOTHING);
+        let news = self.news.map(|index| (NOTEWORTHY[index].1, target));
+        let stage = self.stage.map(|index| (COURTSHIP[index].1, target));
+        news.into_iter().chain(stage)
     }
 }

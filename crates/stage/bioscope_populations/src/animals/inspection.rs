@@ -1,6 +1,6 @@
 use std::collections::BTreeMap;
 
-use bioscope_core::{Percepts, Value};
+use bioscope_core::{NOTHING, Percepts, Value};
 use bioscope_world::Inspection;
 
 use super::individual::Individual;
@@ -11,6 +11,7 @@ pub(super) fn inspect(individual: &Individual) -> Inspection {
     let body = &parts.body;
     let intention = &record.intention;
     let mut values = body.values();
+    values.append(&mut parts.mind.values());
     values.insert("body_length_m".into(), body.length().into());
     values.insert("wanted_speed_body_lengths_per_s".into(), intention.speed.into());
     values.insert("wanted_heading".into(), intention.heading.into());
@@ -25,6 +26,18 @@ pub(super) fn inspect(individual: &Individual) -> Inspection {
         values,
         percepts: percepts(&record.percepts),
         eye: parts.senses.iter().find_map(|sense| sense.eye(&placement, body.length())),
+    }
+}
+
+/// One value of an animal's inner life: `id`, `intention` (the behavior that won), `target` (an identity, 0
+/// for nobody), or what its mind or body tells under this name.
+pub(super) fn value(individual: &Individual, name: &str) -> Option<Value> {
+    let (parts, intention) = (&individual.parts, &individual.record.intention);
+    match name {
+        "id" => Some(f64::from(individual.id).into()),
+        "intention" => Some((&*intention.behavior).into()),
+        "target" => Some(f64::from(intention.target.unwrap_or(NOTHING)).into()),
+        _ => parts.mind.values().remove(name).or_else(|| parts.body.values().remove(name)),
     }
 }
 
@@ -49,6 +62,7 @@ pub(crate) fn percepts(percepts: &Percepts) -> BTreeMap<String, Value> {
     note("depth_m", percepts.depth.into());
     note("home_distance_m", percepts.home.length().into());
     note("flow_m_per_s", percepts.flow.into());
+    note("smelled", (percepts.smelled.len() as f64).into());
     note("light", percepts.light.into());
     note("temperature_degc", percepts.temperature.into());
     values

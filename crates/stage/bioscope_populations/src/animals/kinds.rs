@@ -3,7 +3,8 @@ use std::sync::Arc;
 
 use bioscope_core::{Error, Result};
 use bioscope_minds::{Mind, Roamer};
-use bioscope_motion::{Body, Swimmer};
+use bioscope_motion::undulation::Spine;
+use bioscope_motion::{Body, MuscleSwimmer, Swimmer};
 use bioscope_senses::{Eye, Hearing, LateralLine, Light, Sense, Sight, Smell, Touch, restore};
 
 use super::Look;
@@ -38,11 +39,14 @@ impl Default for Kinds {
             Ok(Box::new(restore::<LateralLine>("lateral_line", bytes)?))
         });
         kinds.add_mind("roamer", |bytes| Ok(Box::new(Roamer::restore(bytes)?)));
+        for kind in crate::fish::MINDS {
+            kinds.add_mind(kind, move |bytes| crate::fish::mind(kind, bytes));
+        }
         kinds.add_body("swimmer", |bytes, look| {
-            let spine = look.spine.clone().ok_or_else(|| {
-                Error::format("swimmer", format!("a '{}' has no spine to swim with", look.species))
-            })?;
-            Ok(Box::new(Swimmer::restore(spine, bytes)?))
+            Ok(Box::new(Swimmer::restore(spine(look)?, bytes)?))
+        });
+        kinds.add_body("muscle_swimmer", |bytes, look| {
+            Ok(Box::new(MuscleSwimmer::restore(spine(look)?, bytes)?))
         });
         kinds.add_look("fish", crate::fish::look_from);
         kinds
@@ -101,6 +105,13 @@ impl Kinds {
     pub(super) fn look(&self, kind: &str, bytes: &[u8]) -> Result<Arc<Look>> {
         find("look", kind, &self.looks)?(bytes)
     }
+}
+
+/// What a body swims with.
+fn spine(look: &Look) -> Result<Arc<Spine>> {
+    look.spine.clone().ok_or_else(|| {
+        Error::format("body", format!("a '{}' has no spine to swim with", look.species))
+    })
 }
 
 fn find<'a, T>(part: &'static str, kind: &str, known: &'a BTreeMap<String, T>) -> Result<&'a T> {

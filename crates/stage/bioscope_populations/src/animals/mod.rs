@@ -13,6 +13,7 @@
 //! [`Body`]: bioscope_motion::Body
 
 mod contact;
+mod feeding;
 mod individual;
 mod inspection;
 mod kinds;

@@ -2,9 +2,10 @@ use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use bioscope_core::{Error, Event, Id, NOTHING, Parameters, Purpose, Random, Result, Vec3, math};
+use bioscope_core::{Error, Event, Id, NOTHING, Parameters, Purpose, Random, Result, Value, Vec3, math};
 use bioscope_dynamics::Influence;
 use bioscope_geometry::{Batch, Transform};
+use bioscope_motion::MuscleSwimmer;
 use bioscope_senses::{Memory, Outlook};
 use bioscope_world::{Environment, Growth, Inspection, Population, Publication, View};
 use rayon::prelude::*;
@@ -12,7 +13,8 @@ use serde::{Deserialize, Serialize};
 
 use super::contact::way_out;
 use super::individual::{Individual, Record};
-use super::{Animal, Kinds};
+use super::{Animal, Kinds, feeding};
+use crate::bites::{CAUGHT, Gone};
 use crate::names::free_name;
 
 const BIRTH: Purpose = Purpose::new("birth of an animal");
@@ -52,6 +54,8 @@ pub struct Animals {
     pub(super) options: AnimalsOptions,
     pub(super) individuals: Vec<Individual>,
     pub(super) kinds: Arc<Kinds>,
+    /// Those that were caught in this tick.
+    pub(super) caught: Vec<Gone>,
     /// What the senses remember of the scene's meshes; no state.
     pub(super) memory: Arc<Memory>,
 }
@@ -68,7 +72,7 @@ impl Animals {
             .into_iter()
             .map(|parts| Individual { id: NOTHING, parts, record: Record::default() })
             .collect();
-        Ok(Self { options, individuals, kinds, memory: Arc::default() })
+        Ok(Self { options, individuals, kinds, caught: Vec::new(), memory: Arc::default() })
     }
 
     /// Runs `work` on every individual: in parallel, or in order where a part is the user's own. Of
@@ -189,7 +193,11 @@ impl Population for Animals {
         let influences = self.influences(view)?;
         let memory = self.memory.clone();
         let outlook = Outlook::new(view.scene, &memory);
-        self.each(|individual, index| individual.sense(view, &outlook, influences[index]))
+        let meals = feeding::meals(view.events);
+        self.each(|individual, index| {
+            let fed = meals.get(&individual.id).copied().unwrap_or(0);
+            individual.sense(view, &outlook, (influences[index], fed))
+        })
     }
 
     fn decide(&mut self, view: &View) -> Result<()> {
@@ -198,15 +206,22 @@ impl Population for Animals {
 
     fn advance(&mut self, view: &View) -> Result<()> {
         let influences = self.influences(view)?;
-        self.each(|individual, index| individual.advance(view, &influences[index]))
+        let dt = view.moment.dt;
+        self.each(|individual, index| individual.drive(&influences[index], dt))?;
+        let bodies = self.individuals.iter_mut().map(|one| &mut one.parts.body);
+        let mut muscles: Vec<_> = bodies.filter_map(|body| body.muscles()).collect();
+        MuscleSwimmer::advance_together(&mut muscles, dt);
+        self.each(|individual, _| individual.arrive(view.environment))
     }
 
-    fn grow(&mut self, _growth: &mut Growth) -> Result<()> {
+    fn grow(&mut self, growth: &mut Growth) -> Result<()> {
+        self.caught = feeding::be_caught(&mut self.individuals, growth.events);
         Ok(())
     }
 
     fn publish(&self, publication: &mut Publication) -> Result<()> {
         let Publication { moment, scene, sounds, events } = publication;
+        events.extend(self.caught.iter().map(|gone| gone.event(CAUGHT, moment)));
         for (index, individual) in self.individuals.iter().enumerate() {
             let look = &individual.parts.look;
             let earlier = &self.individuals[..index];
@@ -225,7 +240,8 @@ impl Population for Animals {
             for sound in &mut sounds[first..] {
                 (sound.source, sound.time) = (individual.id, moment.time);
             }
-            if let Some((kind, object)) = individual.record.event() {
+            events.extend(individual.record.bite.map(|prey| feeding::bitten_by(individual.id, prey, moment)));
+            for (kind, object) in individual.record.events() {
                 events.push(Event {
                     tick: moment.tick,
                     time: moment.time,
@@ -262,6 +278,11 @@ impl Population for Animals {
     fn inspect(&self, id: Id) -> Option<Inspection> {
         let individual = self.individuals.iter().find(|one| one.id == id)?;
         Some(super::inspection::inspect(individual))
+    }
+
+    fn values(&self, name: &str) -> Option<Vec<Value>> {
+        let all = self.individuals.iter().map(|one| super::inspection::value(one, name));
+        all.collect()
     }
 
     fn statistics(&self) -> BTreeMap<String, f64> {

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::individual::{Individual, Record};
 use super::{Animal, Animals, AnimalsOptions, Kinds};
+use crate::bites::Gone;
 
 const PART: &str = "animals";
 
@@ -12,6 +13,7 @@ const PART: &str = "animals";
 struct State {
     options: AnimalsOptions,
     individuals: Vec<SavedIndividual>,
+    caught: Vec<Gone>,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -36,7 +38,8 @@ impl Animals {
     pub fn from_saved(bytes: &[u8], kinds: Arc<Kinds>) -> Result<Self> {
         let state: State = state::from_bytes(PART, bytes)?;
         let (options, memory) = (state.options, Arc::default());
-        let mut animals = Self { options, individuals: Vec::new(), kinds, memory };
+        let (individuals, caught) = (Vec::new(), state.caught);
+        let mut animals = Self { options, individuals, kinds, caught, memory };
         for saved in state.individuals {
             let individual = animals.rebuild(saved)?;
             animals.individuals.push(individual);
@@ -70,13 +73,14 @@ impl Animals {
             .into_iter()
             .map(|saved| self.rebuild(saved))
             .collect::<Result<_>>()?;
-        (self.options, self.individuals) = (state.options, restored);
+        (self.options, self.individuals, self.caught) = (state.options, restored, state.caught);
         Ok(())
     }
 
     pub(super) fn to_saved(&self) -> Result<Vec<u8>> {
         let individuals = self.individuals.iter().map(save_one).collect::<Result<_>>()?;
-        Ok(state::to_bytes(&State { options: self.options.clone(), individuals }))
+        let (options, caught) = (self.options.clone(), self.caught.clone());
+        Ok(state::to_bytes(&State { options, individuals, caught }))
     }
 }
 

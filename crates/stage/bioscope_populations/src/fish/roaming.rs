@@ -4,10 +4,13 @@ use std::sync::Arc;
 
 use bioscope_core::{Error, Result, state};
 use bioscope_minds::{Mind, Roamer};
-use bioscope_motion::{Swimmer, SwimmerParameters};
-use bioscope_senses::{Hearing, LateralLine, Light, Sight, Touch};
+use bioscope_motion::{Body, MuscleSwimmer, Swimmer, SwimmerParameters};
+use bioscope_senses::{
+    Hearing, LateralLine, Light, Sense, Sight, Smell, SmellParameters, Touch,
+};
+use serde::Deserialize;
 
-use super::FishSpecies;
+use super::{FishSpecies, MindRequest};
 use crate::animals::{Animal, Look};
 
 /// What a fish of this species looks like.
@@ -29,30 +32,62 @@ pub(crate) fn look_from(description: &[u8]) -> Result<Arc<Look>> {
     Ok(look(&*FishSpecies::named_or_parsed(&name, &text)?))
 }
 
-/// A fish of this look and species with all senses, a swimming body and this mind; none gives it the mind
-/// of a [`Roamer`].
+/// How a fish is moved.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum BodyKind {
+    /// By geometric flight: [`Swimmer`].
+    #[default]
+    Swimmer,
+    /// By muscles that pull springs in water: [`MuscleSwimmer`].
+    MuscleSwimmer,
+}
+
+impl BodyKind {
+    fn build(self, species: &FishSpecies, look: &Look) -> Result<Box<dyn Body>> {
+        let spine = look.spine.clone().ok_or_else(|| {
+            Error::value("look", &look.species, "the look of a fish, with a spine")
+        })?;
+        let top_speed = species.swimming.burst;
+        let parameters = SwimmerParameters { top_speed, ..SwimmerParameters::default() };
+        Ok(match self {
+            Self::Swimmer => Box::new(Swimmer::new(spine, 1.0, parameters)?),
+            Self::MuscleSwimmer => Box::new(MuscleSwimmer::new(spine, "calibrated")?),
+        })
+    }
+}
+
+/// A fish of this look and species with this mind and all senses, of which smell knows its food by species; no mind
+/// gives it that of a [`Roamer`].
 pub fn roaming(
     species: &FishSpecies,
     look: &Arc<Look>,
     mind: Option<Box<dyn Mind>>,
+    food: &[Arc<str>],
+    body: BodyKind,
 ) -> Result<Animal> {
-    let spine = look
-        .spine
-        .clone()
-        .ok_or_else(|| Error::value("look", &look.species, "the look of a fish, with a spine"))?;
-    let parameters =
-        SwimmerParameters { top_speed: species.swimming.burst, ..SwimmerParameters::default() };
-    Ok(Animal {
-        senses: vec![
-            Box::new(Sight::default()),
-            Box::new(Touch::default()),
-            Box::new(Hearing::default()),
-            Box::new(LateralLine),
-            Box::new(Light),
-        ],
-        mind: mind.unwrap_or_else(|| Box::new(Roamer::default())),
-        body: Box::new(Swimmer::new(spine, 1.0, parameters)?),
-        look: look.clone(),
-        may_fail: false,
-    })
+    let senses: Vec<Box<dyn Sense>> = vec![
+        Box::new(Sight::default()),
+        Box::new(Smell::new(food.to_vec(), SmellParameters::default())),
+        Box::new(Touch::default()),
+        Box::new(Hearing::default()),
+        Box::new(LateralLine),
+        Box::new(Light),
+    ];
+    let mind = mind.unwrap_or_else(|| Box::new(Roamer::default()));
+    let body = body.build(species, look)?;
+    Ok(Animal { senses, mind, body, look: look.clone(), may_fail: false })
+}
+
+/// A fish of this look and species with the senses and mind of an artificial fish.
+pub fn minded(
+    species: &FishSpecies,
+    look: &Arc<Look>,
+    request: &MindRequest,
+    body: BodyKind,
+) -> Result<Animal> {
+    let request = request.clone().of(&look.species);
+    let (senses, mind) = (request.senses(), request.build()?);
+    let body = body.build(species, look)?;
+    Ok(Animal { senses, mind, body, look: look.clone(), may_fail: false })
 }

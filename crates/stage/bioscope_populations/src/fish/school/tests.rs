@@ -10,7 +10,7 @@ use rayon::ThreadPoolBuilder;
 use super::fish::{Fish, Step};
 use super::*;
 use crate::animals::{Animals, AnimalsOptions, Place};
-use crate::fish::{FishSpecies, look, roaming};
+use crate::fish::{BodyKind, FishSpecies, look, roaming};
 
 const DT: f64 = 1.0 / 60.0;
 
@@ -44,7 +44,7 @@ fn school(count: usize) -> FishSchool {
 
 fn predator() -> Animals {
     let species = FishSpecies::named("barracuda").unwrap();
-    let animal = roaming(&species, &look(&species), None).unwrap();
+    let animal = roaming(&species, &look(&species), None, &[], BodyKind::Swimmer).unwrap();
     let place = Some(Place { center: Vec3::new(0.0, -3.0, 3.0), radius: 1.0 });
     let options = AnimalsOptions { place, ..AnimalsOptions::default() };
     Animals::new(vec![animal], options, Arc::default()).unwrap()

@@ -42,18 +42,22 @@ class Mind:
         ----------
         percepts
             All that it may know, in its own frame (x left, y up, z ahead), metres and seconds:
-            `time`, `dt`, `velocity`, `attitude` (own frame to world's, xyzw), `body_length`,
-            `depth`, `home` (vector to it), `seen` (dicts with `id`, `species`, `position`,
-            `velocity`, `size`, nearest first), `ahead` (none, or `distance` and `aim` beside the
-            obstacle), `heard` (`source`, `kind`, `direction`, `amplitude`), `flow`, `light`,
-            `temperature`, `other`, and `random`, four numbers uniform in [0, 1) of this animal in
-            this tick.
+            `id` (its own), `time`, `dt`, `velocity`, `attitude` (own frame to world's, xyzw),
+            `body_length`, `depth`, `home` (vector to it), `seen` (dicts with `id`, `species`,
+            `position`, `velocity`, `heading`, `size`, `color` and `display`, which has `sex`, `act`
+            and `partner`; nearest first), `smelled` (food, alike), `fed` (things swallowed since
+            the last decision), `ahead` (none, or `distance` and `aim` beside the obstacle),
+            `solids` (points of solids round it), `heard` (`source`, `kind`, `direction`,
+            `amplitude`), `flow`, `light`, `temperature`, `retina` (of those who look: `width`,
+            `height`, `color`, `range`, `identity`), `other`, and `random`, four numbers uniform in
+            [0, 1) of this animal in this tick.
 
         Returns
         -------
         dict
-            Any of `behavior` (a word), `heading` (own frame), `speed` (body lengths per second),
-            `urgency` (0 to 1), `gaze` (point in the own frame), `target` (an id).
+            Any of `behavior` (a word), `heading` (own frame), `speed` (body lengths per second,
+            negative to back away), `urgency`, `brake` and `mouth` (0 to 1), `gaze` (point in the
+            own frame), `target` (an id), `display` (what to show: `sex`, `act`, `partner`).
         """
         raise NotImplementedError(f"{type(self).__name__}.decide")
 

@@ -1,0 +1,70 @@
+//! How animals bite, swallow and are caught.
+//!
+//! An animal whose mouth is open, by its intention, bites what its attention rests on as soon as that is
+//! within reach of the mouth. See [`bites`](crate::bites) for how the bitten answers.
+
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+
+use bioscope_core::{Event, Id, NOTHING, Vec3};
+use bioscope_world::Moment;
+
+use super::individual::{Individual, Record};
+use crate::bites::{BITTEN, CAUGHT, EATEN, Gone, bitten};
+
+/// How far the mouth lies ahead of the middle, and how far it reaches when it sucks, body lengths.
+const MOUTH: f32 = 0.48;
+const REACH: f32 = 0.15;
+/// Opening from which it bites.
+const OPEN: f32 = 0.5;
+/// Largest thing that goes into a mouth, body lengths.
+const MOUTHFUL: f32 = 0.7;
+
+/// How many things each has swallowed in the last tick.
+pub(super) fn meals(events: &[Event]) -> BTreeMap<Id, u32> {
+    let mut meals = BTreeMap::new();
+    for event in events.iter().filter(|one| one.kind == EATEN || one.kind == CAUGHT) {
+        if let Some(eater) = event.object {
+            *meals.entry(eater).or_insert(0) += 1;
+        }
+    }
+    meals
+}
+
+/// Whom an animal bites by its intention: the target of an open mouth within reach.
+pub(super) fn bite(record: &Record) -> Option<Id> {
+    let (percepts, intention) = (&record.percepts, &record.intention);
+    let target = intention.target.filter(|&target| target != NOTHING && intention.mouth >= OPEN)?;
+    let length = percepts.body_length;
+    let mut noticed = percepts.smelled.iter().chain(&percepts.seen);
+    let morsel = noticed.find(|one| one.id == target)?;
+    let distance = morsel.position.distance(Vec3::Z * (MOUTH * length)) - 0.5 * morsel.size;
+    (distance <= REACH * length && morsel.size <= MOUTHFUL * length).then_some(target)
+}
+
+/// The event of a bite.
+pub(super) fn bitten_by(biter: Id, prey: Id, moment: &Moment) -> Event {
+    Event {
+        tick: moment.tick,
+        time: moment.time,
+        kind: Cow::Borrowed(BITTEN),
+        subject: prey,
+        object: Some(biter),
+        data: BTreeMap::new(),
+    }
+}
+
+/// Takes those away who were bitten in the last tick.
+pub(super) fn be_caught(individuals: &mut Vec<Individual>, events: &[Event]) -> Vec<Gone> {
+    let biters = bitten(events);
+    if biters.is_empty() {
+        return Vec::new();
+    }
+    let mut caught = Vec::new();
+    individuals.retain(|one| {
+        let biter = biters.get(&one.id);
+        caught.extend(biter.map(|&into| Gone { who: one.id, into }));
+        biter.is_none()
+    });
+    caught
+}

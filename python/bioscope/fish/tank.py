@@ -1,0 +1,288 @@
+"""A tank of still or flowing water with one muscle-driven fish."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Literal, TypeAlias
+
+import numpy as np
+
+from bioscope import _engine
+from bioscope.errors import InvalidValueError
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import ArrayLike, NDArray
+
+Preset: TypeAlias = Literal["calibrated", "published"]
+"""The calibrated body, or the constants that were published."""
+
+
+class Tank:
+    """One fish of 23 masses, 91 viscoelastic units and 12 muscles in water.
+
+    X. Tu, "Artificial Animals for Computer Animation: Biomechanics, Locomotion, Perception and
+    Behavior", 1999, chapter 4. The fish begins at the origin, at rest, looking along +Z, with +X to
+    its left and +Y up; it weighs as much as the water that it takes the place of.
+
+    The verbs (`swim`, `turn`, `glide`, `ascend`, …) tell the motor controllers what to do; they act
+    together, in every `step`, until told otherwise.
+
+    Parameters
+    ----------
+    species
+        A species by name, for its length and its cruising speed.
+    preset
+        `calibrated`: shape, muscles and water by measurement, so that the fish swims as fishes do.
+        `published`: the constants, the water force and the solver of the source; its controllers
+        run blindly, as there.
+    dt
+        Seconds per step; by default the published step of 0.055 time units.
+    length
+        Metres from snout to tail; by default that of the species.
+    integrator
+        `implicit` (default of `calibrated`), `semi_implicit` (the published scheme),
+        `symplectic` or `explicit`.
+    water
+        Thickness of the medium: 0 is air, 1 water, more is oil.
+
+    Examples
+    --------
+    >>> tank = Tank("anthias")
+    >>> tank.swim(0.1)
+    >>> tank.run(5)
+    >>> bool(abs(np.linalg.norm(tank.velocity) - 0.1) < 0.02)
+    True
+    """
+
+    def __init__(
+        self,
+        species: str = "anthias",
+        preset: Preset = "calibrated",
+        *,
+        dt: float | None = None,
+        length: float | None = None,
+        integrator: str | None = None,
+        water: float = 1.0,
+    ) -> None:
+        self._engine = _engine.Tank(species, preset, dt, length, integrator, water)
+        self._engine.set_feedback(preset != "published")
+
+    def step(self, activations: ArrayLike | None = None, steps: int = 1) -> None:
+        """Advance by `steps` steps of `dt`.
+
+        With `activations` (12 numbers, 0 at rest to 1 fully contracted) these drive the muscles in
+        place of the motor controllers, as fast as muscles can follow. Muscle 4 k + j belongs to
+        segment k, from head to tail; j is left top, left bottom, right bottom, right top.
+
+        Raises
+        ------
+        InvalidValueError
+            For other than 12 numbers of 0 to 1.
+        LimitError
+            If the body came apart; it has been put back into its shape, at rest.
+        """
+        if activations is not None:
+            activations = np.asarray(activations, dtype=np.float64).ravel()
+        self._engine.step(activations, steps)
+
+    def run(self, seconds: float) -> None:
+        """Advance by this time, in steps of `dt`, as the motor controllers want."""
+        self.step(steps=max(0, round(_finite("seconds", seconds) / self.dt)))
+
+    def swim(self, speed: float) -> None:
+        """Swim ahead at this speed through the water, m/s; the top speed if it is more."""
+        self._engine.command(speed=_finite("speed", speed, least=0.0), brake=0.0, backward=0.0)
+
+    def glide(self) -> None:
+        """Let the muscles return to rest and coast."""
+        self._engine.command(speed=0.0, brake=0.0, backward=0.0)
+
+    def turn(self, angle: float) -> None:
+        """Turn by this angle in radians, positive to the left: a fast bend, a slow recovery.
+
+        Angles beyond the steering map are turned in equal parts. `turning` tells whether it goes
+        on. The fish should swim: a turn takes its force from the water that passes.
+        """
+        if abs(_finite("angle", angle)) > 2 * math.pi:
+            raise InvalidValueError(f"angle = {angle}: expected radians, -2 pi to 2 pi")
+        self._engine.turn(angle)
+
+    def ascend(self, angle: float) -> None:
+        """Climb at this angle in radians, 0 to pi/2, by the pectoral fins."""
+        self._engine.command(climb=_finite("angle", angle, least=0.0, most=math.pi / 2))
+
+    def descend(self, angle: float) -> None:
+        """Dive at this angle in radians, 0 to pi/2, by the pectoral fins."""
+        self._engine.command(climb=-_finite("angle", angle, least=0.0, most=math.pi / 2))
+
+    def balance(self) -> None:
+        """Keep level and upright by the pectoral fins, as a fish does unless told otherwise."""
+        self._engine.command(climb=0.0)
+
+    def brake(self, share: float = 1.0) -> None:
+        """Stop the tail and spread the pectoral fins against the water, 0 to 1."""
+        share = _finite("share", share, least=0.0, most=1.0)
+        self._engine.command(speed=0.0, brake=share, backward=0.0)
+
+    def backward(self, speed: float) -> None:
+        """Row backward with the pectoral fins at this speed, m/s."""
+        speed = _finite("speed", speed, least=0.0)
+        self._engine.command(speed=0.0, brake=0.0, backward=speed)
+
+    def kick(self, velocity: Sequence[float]) -> None:
+        """Add this velocity (x, y, z), m/s, to the whole body."""
+        x, y, z = (_finite("velocity", axis) for axis in velocity)
+        self._engine.kick((x, y, z))
+
+    def place(self, *, yaw: float = 0.0, pitch: float = 0.0, roll: float = 0.0) -> None:
+        """Set the fish down at the origin, at rest, turned by these angles in radians."""
+        angles = {"yaw": yaw, "pitch": pitch, "roll": roll}
+        self._engine.place(*(_finite(name, angle) for name, angle in angles.items()))
+
+    def flow(self, velocity: Sequence[float]) -> None:
+        """Let the water flow with this velocity (x, y, z), m/s."""
+        x, y, z = (_finite("velocity", axis) for axis in velocity)
+        self._engine.set_flow((x, y, z))
+
+    def feedback(self, watched: bool) -> None:
+        """Let the controllers watch heading and speed, or run blindly as in the source."""
+        self._engine.set_feedback(watched)
+
+    @property
+    def dt(self) -> float:
+        """Seconds per step."""
+        return self._engine.dt
+
+    @property
+    def time_unit(self) -> float:
+        """Seconds in a time unit of the source; the published step is 0.055 of it."""
+        return self._engine.time_unit
+
+    @property
+    def length(self) -> float:
+        """Metres from snout to tail."""
+        return self._engine.length
+
+    @property
+    def mass(self) -> float:
+        """Kilograms."""
+        return self._engine.mass
+
+    @property
+    def cruise(self) -> float:
+        """Speed of easy swimming, m/s."""
+        return self._engine.speeds[0]
+
+    @property
+    def top_speed(self) -> float:
+        """Greatest speed, m/s."""
+        return self._engine.speeds[1]
+
+    @property
+    def nodes(self) -> NDArray[np.float64]:
+        """Places (23, 3), metres: snout, five rings of four, upper and lower tip of the tail."""
+        return self._engine.nodes
+
+    @property
+    def node_velocities(self) -> NDArray[np.float64]:
+        """Velocities (23, 3) of the nodes over ground, m/s."""
+        return self._engine.node_velocities
+
+    @property
+    def center(self) -> NDArray[np.float64]:
+        """Center of mass (3,), metres."""
+        return self._engine.center
+
+    @property
+    def velocity(self) -> NDArray[np.float64]:
+        """Velocity (3,) of the center of mass over ground, m/s."""
+        return self._engine.velocity
+
+    @property
+    def yaw(self) -> float:
+        """Heading of the trunk, radians: 0 along +Z, positive to the left."""
+        return self._engine.attitude[0]
+
+    @property
+    def pitch(self) -> float:
+        """Climb of the trunk, radians."""
+        return self._engine.attitude[1]
+
+    @property
+    def roll(self) -> float:
+        """Lean of the trunk to the right, radians."""
+        return self._engine.attitude[2]
+
+    @property
+    def energy(self) -> float:
+        """Kinetic and elastic energy, joules."""
+        return self._engine.energy
+
+    @property
+    def work(self) -> float:
+        """Work that the muscles have done, joules."""
+        return self._engine.work
+
+    @property
+    def turning(self) -> bool:
+        """Whether a turn goes on."""
+        return self._engine.turning
+
+    @property
+    def fins(self) -> tuple[float, float]:
+        """Angles of the left and right pectoral fin, radians: pi/2 is edge-on, pi brakes."""
+        left, right = self._engine.fins
+        return left, right
+
+    @property
+    def contraction(self) -> NDArray[np.float64]:
+        """Present contraction (12,) of the muscles, 0 to 1."""
+        return self._engine.contraction
+
+    @property
+    def masses(self) -> NDArray[np.float64]:
+        """Masses (23,) of the nodes, kg."""
+        return self._engine.masses
+
+    @property
+    def units(self) -> NDArray[np.float64]:
+        """The units (91, 5), muscles first.
+
+        Two nodes, rest length (m), stiffness (N/m), damping (N s/m).
+        """
+        return self._engine.units
+
+    @property
+    def faces(self) -> NDArray[np.int64]:
+        """Surface triangles (42, 3), counterclockwise from outside."""
+        return self._engine.faces
+
+    @property
+    def half_bandwidth(self) -> int:
+        """Half-bandwidth of the matrices of the body, in nodes."""
+        return self._engine.skyline[0]
+
+    @property
+    def stored_entries(self) -> int:
+        """Entries stored of these matrices, in pairs of nodes."""
+        return self._engine.skyline[1]
+
+    @property
+    def strokes(self) -> NDArray[np.float64]:
+        """The swim table (n, 4): speed (m/s), beats per second, amplitude of both swim segments."""
+        return self._engine.strokes
+
+    @property
+    def bends(self) -> NDArray[np.float64]:
+        """The steering map (n, 3): angle (radians), depth of the bend, time it is held (s)."""
+        return self._engine.bends
+
+
+def _finite(name: str, value: float, *, least: float = -math.inf, most: float = math.inf) -> float:
+    """Return the number, or raise if it is not finite or out of range."""
+    number = float(value)
+    if not math.isfinite(number) or not least <= number <= most:
+        raise InvalidValueError(f"{name} = {value}: expected a number of {least:g} to {most:g}")
+    return number

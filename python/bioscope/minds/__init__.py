@@ -1,0 +1,15 @@
+"""Minds: percepts in, an intention out; the engine's minds of fishes, and minds of one's own."""
+
+from bioscope.minds.fish import BehaviorNetwork, FishMind, FreeFlow, Intentions, asked
+from bioscope.minds.own import Mind, kinds, rebuild
+
+__all__ = [
+    "BehaviorNetwork",
+    "FishMind",
+    "FreeFlow",
+    "Intentions",
+    "Mind",
+    "asked",
+    "kinds",
+    "rebuild",
+]
