@@ -13,6 +13,7 @@ mod expansion;
 mod options;
 mod parallel;
 mod pass;
+mod timed;
 
 use std::{
     sync::Arc,
@@ -75,7 +76,8 @@ impl LSystem {
         string: &ModuleString,
         seed: impl Into<Option<u64>>,
     ) -> Derived<ModuleString> {
-        if self.systems.iter().all(|system| system.homomorphism.is_none()) {
+        let is_plain = self.systems.iter().all(|system| system.homomorphism.is_none());
+        if is_plain && self.timing.is_none() {
             return Ok(string.clone());
         }
         let options = DerivationOptions { seed: seed.into(), ..Default::default() };
@@ -106,6 +108,10 @@ pub struct Derivation<'a> {
     operations: u64,
     deadline: Option<Instant>,
     arities: [u8; 256],
+    /// Of a timed model: identities of the modules, seconds so far, and of the next step.
+    ids: Vec<u64>,
+    time: f64,
+    span: f64,
 }
 
 impl<'a> Derivation<'a> {
@@ -126,6 +132,7 @@ impl<'a> Derivation<'a> {
         derivation.string.kinds.extend_from_slice(&axiom.kinds);
         derivation.machine.run(&axiom.program, &mut derivation.string.parameters);
         derivation.examine("axiom:")?;
+        derivation.identify();
         derivation.exchange()?;
         derivation.remember();
         Ok(derivation)
@@ -158,6 +165,9 @@ impl<'a> Derivation<'a> {
             }),
             options,
             arities,
+            ids: Vec::new(),
+            time: 0.0,
+            span: system.timing.as_ref().map_or(0.0, |timing| timing.step),
         }
     }
 
@@ -207,9 +217,15 @@ impl<'a> Derivation<'a> {
         if self.system.is_own() && self.string.kinds.iter().any(is_cut) {
             self.string = without_cut_branches(&self.string);
         }
-        let next = self.rewritten()?;
-        self.string.kinds = next.kinds;
-        self.string.parameters = next.parameters;
+        let system = self.system;
+        if let Some(timing) = &system.timing {
+            let set = self.table(&system.systems[0])?;
+            self.grow_older(timing, set)?;
+        } else {
+            let next = self.rewritten()?;
+            self.string.kinds = next.kinds;
+            self.string.parameters = next.parameters;
+        }
         for part in &self.system.systems {
             self.block(&part.blocks.end_each, "endEach:")?;
         }
@@ -320,6 +336,8 @@ impl<'a> Derivation<'a> {
         noted: Option<&[bool]>,
     ) -> Derived<(ModuleString, Vec<(usize, usize)>)> {
         let nothing = ProductionSet::new(Vec::new(), 1);
+        let grown = self.grown(string);
+        let string = &grown;
         let systems = self.system.systems.iter();
         let layers: Vec<Layer> = systems
             .map(|system| Layer {
@@ -385,7 +403,8 @@ impl<'a> Derivation<'a> {
 
     /// Keeps with the string what its homomorphism may depend on.
     fn remember(&mut self) {
-        if self.system.systems.iter().any(|system| system.homomorphism.is_some()) {
+        let looks_else = self.system.systems.iter().any(|system| system.homomorphism.is_some());
+        if looks_else || self.system.timing.is_some() {
             self.string.memory = Some(Arc::new(self.machine.memory(self.step)));
         }
     }

@@ -37,6 +37,10 @@ pub(crate) const GLOBAL_LIMIT: usize = 256;
 pub(crate) const STEP: Register = GLOBALS as Register;
 /// Register of `Z`, the derivation length that the file gives.
 pub(crate) const LENGTH: Register = STEP + 1;
+/// Register of `T`, the seconds of a timed model.
+pub(crate) const TIME: Register = LENGTH + 1;
+/// How many variables are predefined.
+pub(crate) const PREDEFINED: usize = 3;
 pub(crate) const CONSTANTS: usize = GLOBALS + GLOBAL_LIMIT;
 pub(crate) const CONSTANT_LIMIT: usize = REGISTERS - CONSTANTS;
 /// A power of two, so that a register number can be bounded by a mask.
@@ -465,6 +469,11 @@ impl Machine {
     /// Begins a step.
     pub fn begin_step(&mut self, step: u64) {
         self.registers[STEP as usize] = step as f64;
+    }
+
+    /// Sets the seconds of a timed model.
+    pub fn set_time(&mut self, seconds: f64) {
+        self.registers[TIME as usize] = seconds;
     }
 
     /// Parameters and local variables.

@@ -100,6 +100,8 @@ pub(crate) struct Production {
     /// Computes `before` and the condition; empty if it applies always.
     pub test: Program,
     pub probability: Option<Program>,
+    /// Age at which a timed module is replaced.
+    pub after: Option<Program>,
     /// Computes `after` and the parameters.
     pub successor: Successor,
     /// How many parameters and local variables it has.
@@ -243,6 +245,17 @@ pub(crate) struct System {
     pub blocks: Blocks,
 }
 
+/// What a timed model says about its modules.
+#[derive(Clone, Debug)]
+pub(crate) struct Timing {
+    /// Seconds per step.
+    pub step: f64,
+    /// By kind: whether it has an age, its first parameter.
+    pub is_timed: Box<[bool; 256]>,
+    /// By kind: what it shows, and the program that computes its parameters.
+    pub growth: Vec<Option<(u8, Program)>>,
+}
+
 /// A parsed L-system, ready to derive strings.
 #[derive(Clone, Debug)]
 pub struct LSystem {
@@ -252,6 +265,7 @@ pub struct LSystem {
     pub(crate) axiom_place: Place,
     /// The main L-system, then the others.
     pub(crate) systems: Vec<System>,
+    pub(crate) timing: Option<Timing>,
     pub(crate) derivation_length: u32,
     pub(crate) angle: Option<f32>,
     pub(crate) environment: Option<String>,

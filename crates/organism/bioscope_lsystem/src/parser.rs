@@ -14,6 +14,7 @@ mod reading;
 mod sections;
 mod statements;
 mod systems;
+mod timed;
 
 use std::{collections::BTreeSet, ops::Range, rc::Rc};
 
@@ -104,6 +105,10 @@ struct Parser<'s> {
     angle: Option<f32>,
     environment: Option<String>,
     constants: Vec<(String, f64)>,
+    /// Seconds per step of a timed model.
+    timed: Option<f64>,
+    /// What timed modules show: kind, shown kind and program.
+    growth: Vec<(u8, u8, crate::machine::Program)>,
 }
 
 impl<'s> Parser<'s> {
@@ -126,6 +131,8 @@ impl<'s> Parser<'s> {
             angle: None,
             environment: None,
             constants: Vec::new(),
+            timed: None,
+            growth: Vec::new(),
         }
     }
 
@@ -256,8 +263,10 @@ impl<'s> Parser<'s> {
             self.errors.sort_by_key(|error| (error.place.line, error.place.column));
             return Err(Diagnostics(self.errors));
         };
+        let timing = self.timing();
         let alphabet = &self.alphabet;
         Ok(LSystem {
+            timing,
             axiom,
             axiom_place: self.source.place(start),
             systems: self.drafts.into_iter().map(|draft| draft.finish(alphabet)).collect(),

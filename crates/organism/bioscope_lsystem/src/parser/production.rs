@@ -44,6 +44,7 @@ impl Parser<'_> {
         let text = first_line(cursor.rest());
         let mut scope = Scope::new();
         let Predecessor { left, strict, right } = self.predecessor(cursor, &mut scope)?;
+        let after = self.after(cursor, &mut scope)?;
         let (test, mut rest) = match cursor.peek_word() {
             (Word::Colon, span) => {
                 cursor.position = span.end;
@@ -85,6 +86,7 @@ impl Parser<'_> {
             right,
             test,
             probability,
+            after,
             successor: Successor { kinds, program },
             slots: scope.len(),
             keeps_parameters,
@@ -175,6 +177,9 @@ impl Parser<'_> {
             return Ok(formals);
         }
         while let (Word::Symbol, span) = cursor.peek_word() {
+            if self.is_after(cursor) {
+                break;
+            }
             cursor.position = span.end;
             let symbol = cursor.slice(span.clone()).to_string();
             let names = match cursor.peek_word().0 {
@@ -185,10 +190,26 @@ impl Parser<'_> {
                     names.map(|name| (name, span.clone())).collect()
                 }
             };
+            let names = self.with_age(&symbol, names, &span);
             let kind = self.kind(&symbol, names.len(), span)?;
             formals.push(Formal { kind, names });
         }
         Ok(formals)
+    }
+
+    /// In a timed model the first parameter of a declared module is its age, which is not written.
+    fn with_age(
+        &self,
+        symbol: &str,
+        mut names: Vec<(String, Range<usize>)>,
+        span: &Range<usize>,
+    ) -> Vec<(String, Range<usize>)> {
+        let is_declared = self.declared.iter().any(|(known, _)| known == symbol);
+        let has_age = names.first().is_some_and(|(name, _)| name == "age");
+        if self.timed.is_some() && is_declared && !has_age {
+            names.insert(0, ("age".into(), span.clone()));
+        }
+        names
     }
 
     fn declared_names(&self, symbol: &str) -> Vec<String> {
@@ -225,11 +246,20 @@ impl Parser<'_> {
             cursor.position = span.end;
             let symbol = cursor.slice(span.clone()).to_string();
             let mut arity = 0;
-            if cursor.peek_word().0 == Word::Open {
+            let is_timed =
+                self.timed.is_some() && self.declared.iter().any(|(known, _)| *known == symbol);
+            if cursor.peek_word().0 == Word::Open || is_timed {
                 let mut compiler = self.compiler(cursor, scope);
                 compiler.code = std::mem::take(code);
-                arity = arguments(&mut compiler)?;
+                if is_timed {
+                    let from = compiler.register(Operand::Constant(0.0))?;
+                    compiler.emit(Instruction::Emit { from })?;
+                }
+                if compiler.cursor.peek_word().0 == Word::Open {
+                    arity = arguments(&mut compiler)?;
+                }
                 *code = compiler.code;
+                arity += usize::from(is_timed);
             } else {
                 arity += self.implied(&symbol, cursor, scope, code)?;
             }
@@ -269,7 +299,7 @@ impl Parser<'_> {
         Ok(names.len())
     }
 
-    fn kind(&mut self, symbol: &str, arity: usize, span: Range<usize>) -> Parsed<u8> {
+    pub(super) fn kind(&mut self, symbol: &str, arity: usize, span: Range<usize>) -> Parsed<u8> {
         if arity > ARITY_LIMIT {
             let message = format!("a module with {arity} parameters; at most {ARITY_LIMIT}");
             return Err(SyntaxError::new(span, message));
@@ -330,7 +360,11 @@ fn bind(scope: &mut Scope, formals: Vec<Formal>) -> Parsed<Vec<Pattern>> {
     let mut patterns = Vec::new();
     for Formal { kind, names } in formals {
         let (slot, arity) = (scope.len() as u8, names.len() as u8);
-        for (name, span) in names {
+        for (mut name, span) in names {
+            if name == "age" && scope.contains(&name) {
+                // The age of a context cannot be named.
+                name = format!("age {}", scope.len());
+            }
             if scope.contains(&name) {
                 let message = format!("parameter '{name}' has a namesake here");
                 return Err(SyntaxError::new(span, message));

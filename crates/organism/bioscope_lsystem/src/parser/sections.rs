@@ -74,6 +74,8 @@ impl Parser<'_> {
             Section::Select => self.select(cursor),
             Section::Modules => self.modules(cursor),
             Section::Order => self.order(cursor),
+            Section::Timed => self.timed(cursor),
+            Section::Growth => self.growth(cursor),
             Section::Unknown => Err(self.unknown_section(statement)),
         }
     }
@@ -239,7 +241,10 @@ impl Parser<'_> {
             }
             let name = cursor.slice(span.clone()).to_string();
             cursor.position = span.end;
-            let parameters = self.declared_parameters(cursor)?;
+            let mut parameters = self.declared_parameters(cursor)?;
+            if self.timed.is_some() {
+                parameters.insert(0, "age".into());
+            }
             if self.declared.iter().any(|(known, _)| *known == name) {
                 return Err(SyntaxError::new(span, format!("module '{name}' is declared twice")));
             }

@@ -21,6 +21,8 @@ pub(super) enum Section {
     Select,
     Modules,
     Order,
+    Timed,
+    Growth,
     /// `array name[size] = { … }` on a line of its own.
     Array,
     End,
@@ -40,7 +42,7 @@ pub(super) enum Block {
 }
 
 /// The words before the colon, lower case, and what they begin.
-pub(super) const SECTIONS: [(&str, Section); 28] = [
+pub(super) const SECTIONS: [(&str, Section); 30] = [
     ("lsystem", Section::Label),
     ("seed", Section::Seed),
     ("axiom", Section::Axiom),
@@ -69,6 +71,8 @@ pub(super) const SECTIONS: [(&str, Section); 28] = [
     ("select", Section::Select),
     ("modules", Section::Modules),
     ("order", Section::Order),
+    ("timed", Section::Timed),
+    ("growth", Section::Growth),
 ];
 
 /// One statement: bytes of the text.
