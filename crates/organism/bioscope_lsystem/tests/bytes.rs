@@ -8,17 +8,25 @@ use proptest::prelude::*;
 const LIMITS: Limits = Limits { modules: 20_000, bytes: 1 << 20, operations: 200_000 };
 
 fn try_all(text: &str) {
-    match LSystem::parse(text, "any.l") {
+    try_as(text, "any.l");
+    try_as(text, "any.lsys");
+}
+
+fn try_as(text: &str, name: &str) {
+    match LSystem::parse(text, name) {
         Ok(system) => {
-            if let Ok(string) = system.derive_within(6, 1, &LIMITS) {
-                assert!(string.to_string().len() >= string.len());
+            for seed in [None, Some(1)] {
+                if let Ok(string) = system.derive_within(6, seed, &LIMITS) {
+                    assert!(string.to_string().len() >= string.len());
+                    let _ = system.appearance(&string, seed);
+                }
             }
         }
         Err(reports) => {
             assert!(!reports.0.is_empty());
             for report in &reports.0 {
                 assert!(report.place.line >= 1 && report.place.column >= 1);
-                assert!(report.to_string().starts_with("any.l:"));
+                assert!(report.to_string().starts_with("any."));
             }
         }
     }
@@ -84,6 +92,42 @@ fn pieces() -> impl Strategy<Value = String> {
         "@Gs",
         "?P",
         "B(x+1)",
+        "start: { ",
+        "endEach: { x = x + 1; }\n",
+        "define: { array a[3] = {1, 2}; }\n",
+        "a[",
+        "]",
+        "while (x) { ",
+        "do { ",
+        "if (x > 1) { ",
+        "else { ",
+        "printf(\"%g\", x);",
+        "fopen(\"a\",\"w\")",
+        "ring lsystem\n",
+        "?(2,1)",
+        "$",
+        "?P(0,0)",
+        "?E(x)",
+        "=",
+        "context: tree\n",
+        "table: t\n",
+        "select: Q -> t\n",
+        "modules: A(x), Bud\n",
+        "Bud",
+        "order: random\n",
+        "timed: 1\n",
+        "growth: A = x\n",
+        " after 1",
+        "array b[2][2] = {1}\n",
+        "#if ",
+        "#else\n",
+        "#endif\n",
+        "#include \"x\"\n",
+        "seed: 1\n",
+        "biran(",
+        "srand(1)",
+        "func(1,x)",
+        "SetDerivationLength(3)",
         "A(x) : x > 3 --> B(x*x)A(x/2)\n",
         "axiom: A(3)B\n",
         "A(x) --> A(x)A(x)\n",
