@@ -7,12 +7,12 @@
 60
 """
 
-from bioscope import fish, gallery
+from bioscope import environments, fish, gallery
 from bioscope._engine import VERSION as __version__  # noqa: N811 - the name Python uses
 from bioscope._engine import Batch, Camera, Material, Mesh, Points, Publication, Scene
 from bioscope._engine import View as WorldView
 from bioscope.errors import BioscopeError
-from bioscope.lsystem import Interpretation, LSystem, ModuleString, Turtle
+from bioscope.lsystem import Interpretation, LSystem, ModuleString, Turtle, ViewFile
 from bioscope.minds import Mind
 from bioscope.populations import (
     Bubbles,
@@ -75,9 +75,11 @@ __all__ = [
     "Scene",
     "Turtle",
     "View",
+    "ViewFile",
     "World",
     "WorldView",
     "__version__",
+    "environments",
     "fish",
     "gallery",
     "load",

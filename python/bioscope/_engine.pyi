@@ -20,6 +20,7 @@ __all__ = [
     "Batch",
     "Camera",
     "Encoder",
+    "Environment",
     "Field",
     "FishMind",
     "Flock",
@@ -36,11 +37,15 @@ __all__ = [
     "SoundTrack",
     "Tank",
     "View",
+    "ViewFile",
     "World",
     "current",
+    "derive_in",
     "encode_png",
+    "environment_names",
     "fish_with_minds",
     "interpret",
+    "read_colors",
     "resident",
 ]
 
@@ -49,7 +54,20 @@ VERSION: Final[str]
 def current(direction: _Numbers, **parameters: _Real) -> Field: ...
 def encode_png(pixels: _Bytes) -> bytes: ...
 def fish_with_minds(options: str, make: Callable[[], object], kinds: Sequence[str]) -> Resident: ...
-def interpret(string: ModuleString, options: dict[str, Any]) -> Interpretation: ...
+def environment_names() -> list[str]: ...
+def derive_in(
+    system: LSystem,
+    steps: SupportsIndex,
+    seed: SupportsIndex,
+    environment: Environment | None = None,
+    view: ViewFile | None = None,
+    options: dict[str, Any] | None = None,
+    threads: bool = True,
+) -> ModuleString: ...
+def interpret(
+    string: ModuleString, options: dict[str, Any], view: ViewFile | None = None
+) -> Interpretation: ...
+def read_colors(path: str | PathLike[str]) -> list[list[float]]: ...
 def resident(kind: str, options: str, parameters: dict[str, float]) -> Resident: ...
 
 @final
@@ -155,6 +173,30 @@ class Flock:
     def flockettes(self, link: _Real) -> int: ...
 
 @final
+class Environment:
+    @staticmethod
+    def built_in(
+        name: str,
+        settings: Sequence[tuple[str, str]],
+        map: _Floats | None = None,
+        low: _Numbers = ...,
+        size: _Numbers = ...,
+    ) -> Environment: ...
+    @staticmethod
+    def read(path: str | PathLike[str]) -> Environment: ...
+    @staticmethod
+    def pipe(command: Sequence[str], seconds: _Real) -> Environment: ...
+    @staticmethod
+    def python(environment: object) -> Environment: ...
+    def ask(
+        self,
+        parameters: Sequence[Sequence[float]],
+        positions: _Floats,
+        headings: _Floats,
+        step: SupportsIndex,
+    ) -> list[list[float]]: ...
+
+@final
 class Interpretation:
     def segments(
         self,
@@ -163,7 +205,17 @@ class Interpretation:
     def polygons(self) -> list[tuple[_Floats, int]]: ...
     @property
     def surfaces(self) -> list[tuple[str, list[float], list[float], int]]: ...
-    def mesh(self, sides: SupportsIndex = 8, palette: Sequence[_Numbers] | None = None) -> Mesh: ...
+    def balls(self) -> tuple[_Floats, _Floats, NDArray[np.int32]]: ...
+    def discs(self) -> tuple[_Floats, _Floats, _Floats, _Floats, NDArray[np.int32]]: ...
+    def patches(self) -> tuple[_Floats, NDArray[np.int32]]: ...
+    @property
+    def labels(self) -> list[tuple[list[float], list[float]]]: ...
+    def mesh(
+        self,
+        sides: SupportsIndex = 8,
+        palette: Sequence[_Numbers] | None = None,
+        texture: SupportsIndex | None = None,
+    ) -> Mesh: ...
 
 @final
 class LSystem:
@@ -571,3 +623,22 @@ class World:
     def shots(self) -> list[tuple[str, float]]: ...
     @shots.setter
     def shots(self, shots: Sequence[tuple[str, _Real]]) -> None: ...
+
+@final
+class ViewFile:
+    def __new__(cls, path: str | PathLike[str]) -> Self: ...
+    @property
+    def warnings(self) -> list[str]: ...
+    @property
+    def sides(self) -> int: ...
+    @property
+    def turtle(self) -> tuple[float, float, float, float, int, int]: ...
+    @property
+    def camera(
+        self,
+    ) -> tuple[list[float], list[float], float, bool, float, list[float], float]: ...
+    @property
+    def textures(self) -> list[str]: ...
+    @property
+    def shapes(self) -> tuple[list[str], list[int]]: ...
+    def function(self, id: SupportsIndex, x: _Real) -> float | None: ...

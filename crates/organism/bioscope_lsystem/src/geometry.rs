@@ -102,7 +102,7 @@ impl<'a> Builder<'a> {
     ) -> Self {
         let radii = drawn.segments.iter().map(|segment| segment.start_radius);
         let crowd = drawn.segments.len() as f32 / DETAILED as f32;
-        let most_sides = options.sides.clamp(3, MOST_SIDES) as f32 / crowd.max(1.0).sqrt();
+        let most_sides = options.sides.clamp(3, MOST_SIDES) as f32 / crowd.max(1.0).powf(0.4);
         let mut builder = Self {
             mesh: Mesh::default(),
             bends,

@@ -91,6 +91,18 @@ pub enum Contour {
     Profile(i32),
 }
 
+impl Contour {
+    /// A number that no other contour has.
+    pub(crate) fn number(self) -> i32 {
+        match self {
+            Self::Round => -1,
+            Self::Ribbon => -2,
+            Self::Ruffle => -3,
+            Self::Profile(number) => number,
+        }
+    }
+}
+
 /// A filled polygon.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Polygon {

@@ -43,4 +43,6 @@ pub use interpretation::{
 };
 pub use model::{Alphabet, LSystem, ModuleKind};
 pub use string::ModuleString;
-pub use turtle::{Conventions, Frame, Movement, Pose, Turtle, TurtleOptions};
+pub use turtle::{
+    Conventions, Frame, Movement, Pose, SharedPart, SharedPlant, Turtle, TurtleOptions,
+};

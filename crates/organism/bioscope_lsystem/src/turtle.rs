@@ -45,6 +45,7 @@ mod command;
 mod draw;
 mod options;
 mod patch;
+mod sharing;
 mod spline;
 mod stances;
 mod state;
@@ -54,13 +55,14 @@ use glam::DVec3;
 
 use crate::{Alphabet, ModuleString, interpretation::Interpretation};
 use axes::{Angle, Axes};
-use command::{Change, Command, command};
+use command::{Change, Command, Disc, command};
 use patch::PatchTable;
 use spline::Spline;
 use state::{MOVEMENTS, State};
 
 pub use axes::Frame;
 pub use options::{Conventions, Movement, TurtleOptions};
+pub use sharing::{SharedPart, SharedPlant};
 pub(crate) use stances::Stance;
 
 /// How deeply brackets may be nested.

@@ -6,6 +6,7 @@ use pyo3::prelude::*;
 mod acoustics;
 mod arrays;
 mod camera;
+mod environments;
 mod error;
 mod field;
 mod fish_mind;
@@ -23,6 +24,7 @@ mod scene;
 mod skin;
 mod stream;
 mod tank;
+mod turtle;
 mod values;
 mod view;
 mod world;
@@ -38,13 +40,15 @@ mod _engine {
     #[pymodule_export]
     use super::camera::Camera;
     #[pymodule_export]
+    use super::environments::{Environment, derive_in, environment_names};
+    #[pymodule_export]
     use super::field::{Field, current};
     #[pymodule_export]
     use super::fish_mind::FishMind;
     #[pymodule_export]
     use super::flock::Flock;
     #[pymodule_export]
-    use super::lsystem::{Interpretation, LSystem, ModuleString, interpret};
+    use super::lsystem::{LSystem, ModuleString};
     #[pymodule_export]
     use super::material::Material;
     #[pymodule_export]
@@ -65,6 +69,8 @@ mod _engine {
     use super::stream::Encoder;
     #[pymodule_export]
     use super::tank::Tank;
+    #[pymodule_export]
+    use super::turtle::{Interpretation, ViewFile, interpret, read_colors};
     #[pymodule_export]
     use super::view::View;
     #[pymodule_export]

@@ -47,13 +47,13 @@ enum Answer {
 }
 
 impl SoilWater {
-    /// A field of this many cells around the origin in x and z, from the ground (y = 0) downward, all with this amount.
+    /// A field of this many cells around the origin, all with this amount.
     pub fn new(cells: [usize; 3], cell: f32, amount: f64, diffusion: f64) -> Self {
         let count = cells.iter().product();
         let size = cells.map(|count| count as f32 * cell);
         Self {
             cells,
-            low: Vec3::new(-size[0] / 2.0, -size[1], -size[2] / 2.0),
+            low: Vec3::from_array(size) / -2.0,
             cell,
             water: vec![amount; count],
             blocked: vec![false; count],
@@ -392,12 +392,12 @@ mod tests {
             }
         }
         // More water to the right (+x) of a tip that goes down: its left is +x there.
-        let place = Vec3::new(0.5, -10.0, 0.0);
+        let place = Vec3::new(0.5, -5.0, 0.0);
         let answers = ask(&mut soil, &[(&[0.1, 1.0], place, Vec3::NEG_Y)]);
         assert!((answers[0][0] - 0.1).abs() < 1e-6);
         assert!((answers[0][1] - 45.0).abs() < 3.0, "{:?}", answers[0]);
-        let none = ask(&mut soil, &[(&[0.1, 1.0], Vec3::Y * 5.0, Vec3::NEG_Y)]);
-        assert_eq!(none[0][0], 0.0, "above the ground there is no water");
+        let none = ask(&mut soil, &[(&[0.1, 1.0], Vec3::Y * 50.0, Vec3::NEG_Y)]);
+        assert_eq!(none[0][0], 0.0, "outside the field there is no water");
     }
 
     #[test]

@@ -1,0 +1,278 @@
+//! What surrounds plants: the environments of open L-systems.
+
+use std::path::PathBuf;
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Duration;
+
+use bioscope_core::{Error, Vec3};
+use bioscope_lsystem::{self as lsystem, EnvironmentError, Reply, Request, Settings};
+use numpy::{IntoPyArray, PyArrayMethods, PyReadonlyArray2};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use crate::arrays::{self, Array2, Floats};
+use crate::error::to_python;
+use crate::lsystem::{LSystem, ModuleString};
+use crate::turtle::ViewFile;
+
+type Inner = Arc<Mutex<Box<dyn lsystem::Environment>>>;
+
+/// See `bioscope.environments.Environment`.
+#[pyclass(frozen, module = "bioscope._engine")]
+pub struct Environment {
+    inner: Inner,
+}
+
+/// An environment that Python keeps while a derivation uses it.
+struct Shared(Inner);
+
+impl lsystem::Environment for Shared {
+    fn exchange(
+        &mut self,
+        step: u64,
+        requests: &[Request],
+        replies: &mut [Reply],
+    ) -> Result<(), EnvironmentError> {
+        let mut inner = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        inner.exchange(step, requests, replies)
+    }
+}
+
+impl Environment {
+    /// What a derivation takes over; the state stays with this object.
+    pub fn shared(&self) -> Box<dyn lsystem::Environment> {
+        Box::new(Shared(self.inner.clone()))
+    }
+
+    fn new(inner: Box<dyn lsystem::Environment>) -> Self {
+        Self { inner: Arc::new(Mutex::new(inner)) }
+    }
+}
+
+fn refused(error: EnvironmentError) -> PyErr {
+    to_python(Error::format("environment", error.to_string()))
+}
+
+fn light_map(
+    array: &PyReadonlyArray2<'_, f32>,
+    low: [f32; 2],
+    size: [f32; 2],
+) -> lsystem::LightMap {
+    let array = array.as_array();
+    let [rows, columns] = [array.shape()[0], array.shape()[1]];
+    let light =
+        array.iter().map(|light| if light.is_finite() { light.clamp(0.0, 1.0) } else { 0.0 });
+    lsystem::LightMap { low, size, cells: [columns, rows], light: light.collect() }
+}
+
+#[pymethods]
+impl Environment {
+    /// A built-in environment or field program by name; `map` is light (rows, columns), lowest row first.
+    #[staticmethod]
+    #[pyo3(signature = (name, settings, map=None, low=[-30.0, -30.0], size=[60.0, 60.0]))]
+    fn built_in(
+        name: &str,
+        settings: Vec<(String, String)>,
+        map: Option<PyReadonlyArray2<'_, f32>>,
+        low: [f32; 2],
+        size: [f32; 2],
+    ) -> PyResult<Self> {
+        let mut own = Settings::default();
+        settings.into_iter().for_each(|(name, value)| own.set(&name, value));
+        let map = map.map(|map| light_map(&map, low, size));
+        Ok(Self::new(lsystem::built_in(name, &own, map).map_err(refused)?))
+    }
+
+    /// What an environment file (.e) describes.
+    #[staticmethod]
+    fn read(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
+        let environment = py.detach(|| lsystem::read_environment(&path));
+        Ok(Self::new(environment.map_err(to_python)?))
+    }
+
+    /// A program at the other end of a pipe.
+    #[staticmethod]
+    fn pipe(command: Vec<String>, seconds: f64) -> PyResult<Self> {
+        let patience = Duration::try_from_secs_f64(seconds)
+            .map_err(|_| to_python(Error::value("seconds", seconds, "a positive number")))?;
+        let pipe = lsystem::Pipe::start(&command, patience).map_err(refused)?;
+        Ok(Self::new(Box::new(pipe)))
+    }
+
+    /// A Python object with a method `exchange(step, messages)`.
+    #[staticmethod]
+    fn python(environment: Py<PyAny>) -> Self {
+        Self::new(Box::new(Callback { environment }))
+    }
+
+    /// Asks once: parameters, places and headings of messages; the parameters after the answers.
+    fn ask(
+        &self,
+        py: Python<'_>,
+        parameters: Vec<Vec<f32>>,
+        positions: PyReadonlyArray2<'_, f32>,
+        headings: PyReadonlyArray2<'_, f32>,
+        step: u64,
+    ) -> PyResult<Vec<Vec<f32>>> {
+        let positions = arrays::vectors("positions", &positions).map_err(to_python)?;
+        let headings = arrays::vectors("headings", &headings).map_err(to_python)?;
+        for (name, count) in [("positions", positions.len()), ("headings", headings.len())] {
+            arrays::same_count(name, count, parameters.len()).map_err(to_python)?;
+        }
+        let mut answers = parameters.clone();
+        let request = |module: usize| {
+            let heading = headings[module].normalize_or(Vec3::Y);
+            let left = Vec3::Z.cross(heading).normalize_or(Vec3::X);
+            Request {
+                module,
+                id: module as u64,
+                parameters: &parameters[module],
+                position: positions[module],
+                heading,
+                left,
+                up: heading.cross(left),
+                width: 1.0,
+                color: 1,
+                following: None,
+            }
+        };
+        let requests: Vec<Request> = (0..parameters.len()).map(request).collect();
+        let mut replies: Vec<Reply> =
+            answers.iter_mut().map(|answer| Reply { parameters: answer }).collect();
+        let outcome = py.detach(|| {
+            let mut inner = self.inner.lock().unwrap_or_else(PoisonError::into_inner);
+            inner.exchange(step, &requests, &mut replies)
+        });
+        drop(replies);
+        outcome.map_err(refused)?;
+        Ok(answers)
+    }
+}
+
+/// Names of the environments that are built in.
+#[pyfunction]
+pub fn environment_names() -> Vec<&'static str> {
+    lsystem::environment_names().to_vec()
+}
+
+/// Derives a string in an environment; the turtle walks as the view and the options say.
+#[pyfunction]
+#[pyo3(signature = (system, steps, seed, environment=None, view=None, options=None, threads=true))]
+#[allow(clippy::too_many_arguments)] // Keywords of a Python call.
+pub fn derive_in(
+    py: Python<'_>,
+    system: &Bound<'_, LSystem>,
+    steps: u64,
+    seed: u64,
+    environment: Option<&Bound<'_, Environment>>,
+    view: Option<&Bound<'_, ViewFile>>,
+    options: Option<&Bound<'_, PyDict>>,
+    threads: bool,
+) -> PyResult<ModuleString> {
+    let own = system.get().system.clone();
+    let mut derivation = lsystem::DerivationOptions::of(&own).map_err(refused)?;
+    (derivation.seed, derivation.threads) = (Some(seed), threads);
+    if let Some(environment) = environment {
+        derivation.environment = Some(environment.get().shared());
+    }
+    if let Some(view) = view {
+        let view = &view.get().view;
+        derivation.turtle = view.turtle.clone();
+        derivation.functions = Some(Arc::new(lsystem::FunctionTable::new(view)));
+    }
+    if let Some(angle) = own.angle() {
+        derivation.turtle.angle = angle;
+    }
+    for (name, value) in options.into_iter().flatten() {
+        crate::turtle::set(&mut derivation.turtle, &name.extract::<String>()?, &value)?;
+    }
+    let string = py.detach(|| -> Result<_, lsystem::DerivationError> {
+        let mut derivation = lsystem::Derivation::with_options(&own, derivation)?;
+        for _ in 0..steps {
+            derivation.advance()?;
+        }
+        derivation.finish()
+    });
+    let string = string.map_err(|error| to_python(error.into()))?;
+    Ok(ModuleString::derived(string, own, seed))
+}
+
+/// An environment written in Python.
+struct Callback {
+    environment: Py<PyAny>,
+}
+
+impl Callback {
+    fn call(
+        &self,
+        py: Python<'_>,
+        step: u64,
+        requests: &[Request],
+        replies: &mut [Reply],
+    ) -> PyResult<()> {
+        let count = requests.len();
+        let widest = requests.iter().map(|one| one.parameters.len()).max().unwrap_or(0);
+        let mut parameters = vec![f32::NAN; count * widest];
+        for (row, request) in requests.iter().enumerate() {
+            let own = request.parameters;
+            parameters[row * widest..row * widest + own.len()].copy_from_slice(own);
+        }
+        let points = |of: fn(&Request) -> Vec3| -> PyResult<Array2<'_, f32>> {
+            let all: Vec<Vec3> = requests.iter().map(of).collect();
+            all.as_slice().as_flattened_floats().to_vec().into_pyarray(py).reshape([count, 3])
+        };
+        let messages = PyDict::new(py);
+        let parameters = parameters.into_pyarray(py).reshape([count, widest])?;
+        messages.set_item("parameters", parameters)?;
+        messages.set_item("positions", points(|one| one.position)?)?;
+        messages.set_item("headings", points(|one| one.heading)?)?;
+        messages.set_item("lefts", points(|one| one.left)?)?;
+        messages.set_item("ups", points(|one| one.up)?)?;
+        let widths: Vec<f32> = requests.iter().map(|one| one.width).collect();
+        messages.set_item("widths", widths.into_pyarray(py))?;
+        let modules: Vec<u64> = requests.iter().map(|one| one.module as u64).collect();
+        messages.set_item("modules", modules.into_pyarray(py))?;
+        let answer = self.environment.bind(py).call_method1("exchange", (step, messages))?;
+        if answer.is_none() {
+            return Ok(());
+        }
+        let numpy = py.import("numpy")?;
+        let answer = numpy.call_method1("asarray", (answer, numpy.getattr("float32")?))?;
+        let answer: PyReadonlyArray2<'_, f32> = answer.extract()?;
+        let answer = answer.as_array();
+        if answer.shape()[0] != count {
+            let found = format!("answers of shape ({}, {})", answer.shape()[0], answer.shape()[1]);
+            let expected = format!("shape ({count}, k), one row per message");
+            return Err(to_python(Error::value("exchange", found, expected)));
+        }
+        for (reply, row) in replies.iter_mut().zip(answer.rows()) {
+            for (own, &value) in reply.parameters.iter_mut().zip(row) {
+                // What is no number leaves the parameter as it is.
+                if !value.is_nan() {
+                    *own = value;
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+impl lsystem::Environment for Callback {
+    fn exchange(
+        &mut self,
+        step: u64,
+        requests: &[Request],
+        replies: &mut [Reply],
+    ) -> Result<(), EnvironmentError> {
+        Python::attach(|py| {
+            let name = self
+                .environment
+                .bind(py)
+                .get_type()
+                .name()
+                .map_or_else(|_| "environment".to_owned(), |name| name.to_string());
+            let outcome = self.call(py, step, requests, replies);
+            outcome.map_err(|error| EnvironmentError::Gone { name, reason: error.to_string() })
+        })
+    }
+}

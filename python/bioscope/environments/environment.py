@@ -1,0 +1,173 @@
+"""The protocol between a plant and its surroundings, and deriving strings in it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from bioscope import _engine
+from bioscope.lsystem.lsystem import LSystem, ModuleString
+
+if TYPE_CHECKING:
+    from os import PathLike
+
+    from numpy.typing import ArrayLike, NDArray
+
+    from bioscope.lsystem.turtle import ViewFile
+
+
+class Environment:
+    r"""What surrounds a plant; write your own by deriving from it and defining `exchange`.
+
+    Examples
+    --------
+    >>> import bioscope as bio
+    >>> class Ceiling(bio.environments.Environment):
+    ...     def exchange(self, step, messages):
+    ...         return (messages["positions"][:, 1:2] < 2.5) * 1.0
+    >>> grow = "Lsystem: x\naxiom: A?E(1)\nA > ?E(x) : x > 0 --> F(1)A\nendlsystem\n"
+    >>> bio.environments.derive(bio.LSystem(grow), steps=9, environment=Ceiling()).string()
+    'F(1)F(1)F(1)A?E(0)'
+    """
+
+    _inner: _engine.Environment | None = None
+
+    def exchange(self, step: int, messages: dict[str, NDArray[Any]]) -> NDArray[np.float32] | None:
+        """Answer the messages of one string, in its order.
+
+        Parameters
+        ----------
+        step
+            Derivation step, 0 for the axiom.
+        messages
+            Arrays with a row per message: `parameters` (n, k; what shorter messages lack is not a
+            number), `positions`, `headings`, `lefts`, `ups` (n, 3), `widths` and `modules` (n,).
+
+        Returns
+        -------
+        array or None
+            New parameters (n, up to k); what is not a number stays as it is, and so does
+            everything for None.
+        """
+        raise NotImplementedError(f"{type(self).__name__} does not define exchange")
+
+    @property
+    def engine(self) -> _engine.Environment:
+        """What the engine talks to."""
+        if self._inner is None:
+            self._inner = _engine.Environment.python(self)
+        return self._inner
+
+    def ask(
+        self,
+        parameters: ArrayLike,
+        positions: ArrayLike,
+        headings: ArrayLike | None = None,
+        step: int = 0,
+    ) -> list[list[float]]:
+        """Ask once, as a plant with these messages would; return their parameters afterwards.
+
+        Parameters
+        ----------
+        parameters
+            Numbers of each message (n, k).
+        positions
+            Where they are (n, 3), metres.
+        headings
+            Where the turtle looks there (n, 3); upward if not given.
+        step
+            Derivation step.
+        """
+        places = np.ascontiguousarray(positions, np.float32)
+        if headings is None:
+            headings = np.tile(np.array([0, 1, 0], np.float32), (len(places), 1))
+        ahead = np.ascontiguousarray(headings, np.float32)
+        rows = [[float(one) for one in np.atleast_1d(row)] for row in np.asarray(parameters)]
+        return self.engine.ask(rows, places, ahead, step)
+
+
+class BuiltIn(Environment):
+    """An environment of the engine."""
+
+    def __init__(self, name: str, settings: dict[str, object], **picture: Any) -> None:
+        entries = [(key, _told(value)) for key, value in settings.items() if value is not None]
+        self._inner = _engine.Environment.built_in(name, entries, **picture)
+
+
+def _told(value: object) -> str:
+    if isinstance(value, bool):
+        return "on" if value else "off"
+    if isinstance(value, str):
+        return value
+    return " ".join(repr(float(one)) for one in np.atleast_1d(np.asarray(value)).ravel())
+
+
+class _Read(Environment):
+    def __init__(self, path: str | PathLike[str]) -> None:
+        self._inner = _engine.Environment.read(path)
+
+
+def read(path: str | PathLike[str]) -> Environment:
+    """Return the environment of an environment file (.e) and the specification beside it.
+
+    The field program that it names is never run: it is built in.
+
+    Raises
+    ------
+    FormatError
+        If the file cannot be read, or names a program that is not built in.
+    """
+    return _Read(path)
+
+
+def names() -> list[str]:
+    """Return the names of the environments and field programs that are built in."""
+    return _engine.environment_names()
+
+
+def derive(
+    system: LSystem,
+    steps: int | None = None,
+    *,
+    environment: Environment | None = None,
+    seed: int = 1,
+    view: ViewFile | None = None,
+    threads: bool = True,
+    **options: Any,
+) -> ModuleString:
+    """Derive a string of a model that asks its surroundings.
+
+    Parameters
+    ----------
+    system
+        The model.
+    steps
+        Number of steps; as many as the file says, if not given.
+    environment
+        What answers `?E`; it keeps its state afterwards. If not given, the one that the file
+        declares (`environment: sky_light tau=0.25`).
+    seed
+        Seed of the random numbers.
+    view
+        A view file: how the turtle walks, and the functions that the model uses.
+    threads
+        Whether several threads may be used; the string does not depend on it.
+    **options
+        Options of the turtle, see `bioscope.Turtle`.
+
+    Raises
+    ------
+    FormatError
+        If a production cannot be evaluated, a limit is reached, or the environment fails.
+    """
+    engine = _engine.derive_in(
+        system._engine,
+        system.steps if steps is None else steps,
+        seed,
+        environment.engine if environment is not None else None,
+        view._engine if view is not None else None,
+        options,
+        threads,
+    )
+    return ModuleString(engine)
