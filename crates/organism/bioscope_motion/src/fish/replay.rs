@@ -109,18 +109,33 @@ fn forward(model: &std::sync::Arc<FishModel>, speed: f64) -> Result<Segment> {
     Ok(segment)
 }
 
+/// A turn, from the beginning of a beat until the heading has settled and a beat begins again, so that the swing of the
+/// trunk is the same at both ends.
 fn turn(model: &std::sync::Arc<FishModel>, angle: f32) -> Result<Segment> {
     let mut fish = swimming(model, model.design.swim.cruise)?;
+    let interval = 2.0 * model.design.step;
+    let begins =
+        |fish: &Swimmers<f64>| fish.motor(0).phase < fish.motor(0).frequency * interval as f32;
+    while !begins(&fish) {
+        fish.advance(interval);
+    }
     fish.motor_mut(0).feedback = true;
     fish.turn(0, angle);
-    let interval = 2.0 * model.design.step;
-    Ok(record(&mut fish, interval, |fish, moments| !fish.motor(0).is_turning() || moments > 5000))
+    let settle = (2.0 / f64::from(fish.motor(0).frequency) / interval) as usize;
+    let mut ended = None;
+    Ok(record(&mut fish, interval, |fish, moments| {
+        if ended.is_none() && !fish.motor(0).is_turning() {
+            ended = Some(moments);
+        }
+        let settled = ended.is_some_and(|end| moments > end + settle);
+        (settled && begins(fish)) || moments > 5000
+    }))
 }
 
 fn record(
     fish: &mut Swimmers<f64>,
     interval: f64,
-    done: impl Fn(&Swimmers<f64>, usize) -> bool,
+    mut done: impl FnMut(&Swimmers<f64>, usize) -> bool,
 ) -> Segment {
     let heading = |fish: &Swimmers<f64>| {
         let nodes = fish.nodes(0);
@@ -291,7 +306,8 @@ impl Replica {
         let (mut move_, over) = passed(&repertoire.segments[self.segment], &mut self.time, dt);
         if let Some((old, time, share)) = &mut self.fading {
             let (other, _) = passed(&repertoire.segments[*old], time, dt);
-            for (mine, theirs) in move_.iter_mut().zip(other) {
+            // The heading is the new segment's alone: else a turn would lose its beginning.
+            for (mine, theirs) in move_[..3].iter_mut().zip(other) {
                 *mine += (theirs - *mine) * *share;
             }
             *share -= dt / BLEND;

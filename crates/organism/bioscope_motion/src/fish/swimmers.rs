@@ -225,6 +225,20 @@ impl<R: Dispatch> Swimmers<R> {
         }
     }
 
+    /// Puts the nodes of a fish at these places in metres, at rest.
+    pub fn set_nodes(&mut self, index: usize, nodes: &[[f64; 3]; NODES]) {
+        let lane = index % R::LANES;
+        let group = &mut self.groups[index / R::LANES];
+        let Individual { length, origin, .. } = &group.members[lane];
+        for (node, place) in nodes.iter().enumerate() {
+            for axis in 0..3 {
+                let value = (place[axis] - origin[axis]) / length;
+                group.body.position[node][axis].set_lane(lane, value);
+                group.body.velocity[node][axis].set_lane(lane, 0.0);
+            }
+        }
+    }
+
     /// Length of a fish, metres.
     pub fn length(&self, index: usize) -> f64 {
         self.individual(index).length
