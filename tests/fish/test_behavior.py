@@ -161,7 +161,7 @@ def test_crossing_fishes_avoid_each_other():
 @pytest.mark.capability("TF-120")
 def test_turning_beyond_what_flees_aside_catches_it_sooner():
     def time_to_catch(lead, seed):
-        angle = 0.7 + 0.05 * seed
+        angle = 0.7 + 0.1 * seed
         hunter = Fish(1, "hunter", None, (0.0, 0.0, 0.0), size=0.3, speed=0.3, maneuvers=True)
         hunter.mind = bio.minds.Intentions(
             "predator", species="hunter", food=["fish"], stagger=0.0, lead=lead, full_speed=2.0
@@ -170,41 +170,35 @@ def test_turning_beyond_what_flees_aside_catches_it_sooner():
         class Straight:
             def decide(self, percepts, *, seed=0):
                 wanted = {"behavior": "swim", "turn": 0.0, "pitch": 0.0, "brake": 0.0}
-                return wanted | {"speed": 3.5, "mouth": 0.0, "target": None, "display": {}}
+                return wanted | {"speed": 4.5, "mouth": 0.0, "target": None, "display": {}}
 
         place = (math.sin(angle) * 1.2, 0.0, math.cos(angle) * 1.2)
-        prey = Fish(2, "fish", Straight(), place, yaw=angle + 1.9, speed=0.35)
+        prey = Fish(2, "fish", Straight(), place, yaw=angle + 1.3, speed=0.45)
         arena = Arena([hunter, prey], seed=seed)
-        arena.run(30, until=lambda: len(arena.fishes) == 1)
+        assert arena.run(30, until=lambda: len(arena.fishes) == 1)
         return arena.time
 
-    leading = np.array([time_to_catch(1.0, seed) for seed in range(12)])
-    plain = np.array([time_to_catch(0.0, seed) for seed in range(12)])
-    assert leading.mean() < plain.mean()
+    leading = np.array([time_to_catch(0.5, seed) for seed in range(6)])
+    plain = np.array([time_to_catch(0.0, seed) for seed in range(6)])
+    assert leading.mean() < 0.97 * plain.mean(), (leading, plain)
 
 
-@pytest.mark.capability("TF-124", "AA-048")
-def test_escaping_gains_distance():
-    gained = 0
-    for seed in range(20):
+@pytest.mark.capability("TF-124")
+def test_those_who_escape_outlive_those_who_do_not():
+    def survives(role, seed):
         angle = 2 * math.pi * seed / 20
-        prey = Fish(1, "fish", sated("prey"), (0.0, 0.0, 0.0))
-        shark = Fish(2, "shark", None, (0.5 * math.sin(angle), 0, 0.5 * math.cos(angle)), size=0.3)
-        shark.mind = bio.minds.Intentions(
-            "predator",
-            species="shark",
-            food=["fish"],
-            stagger=0.0,
-            cruise_speed=0.6,
-            full_speed=1.0,
+        fish = Fish(1, "fish", sated(role), (0.0, 0.0, 0.0))
+        place = (0.5 * math.sin(angle), 0.0, 0.5 * math.cos(angle))
+        hunter = bio.minds.Intentions(
+            "predator", species="shark", food=["fish"], stagger=0.0, full_speed=1.0
         )
-        shark.yaw = angle + math.pi
-        arena = Arena([prey, shark], seed=seed)
-        before = distance(prey.place, shark.place)
-        arena.run(4)
-        survived = len(arena.fishes) == 2
-        gained += survived and distance(prey.place, shark.place) > before
-    assert gained >= 16, gained
+        # As fast as the prey at most.
+        shark = Fish(2, "shark", hunter, place, yaw=angle + math.pi, size=0.3)
+        arena = Arena([fish, shark], seed=seed)
+        return not arena.run(4, until=lambda: len(arena.fishes) == 1)
+
+    assert sum(survives("prey", seed) for seed in range(20)) >= 16
+    assert sum(survives("pacifist", seed) for seed in range(20)) <= 4
 
 
 @pytest.mark.capability("TF-125", "AA-049")
@@ -297,7 +291,7 @@ def test_a_school_splits_at_a_pillar_and_closes_behind_it():
 
 def courters(*sizes):
     """Males of these sizes and one female, sated and amorous."""
-    amorous = {"libido_growth": 0.01, "home_range": 2.0, "spawning_depth": 0.5}
+    amorous = {"libido_growth": 0.01, "mate_weight": 0.0, "home_range": 2.0, "spawning_depth": 0.5}
     fishes = [
         Fish(
             number,
@@ -335,11 +329,10 @@ def test_a_pair_goes_through_all_stages_to_spawning():
     for who in (1, 10):
         order = [act for number, act in stages if number == who and act in ACTS]
         assert order == ACTS, (who, stages)
-    assert touches == 3 or touches == 2, "the third touch ends it"
+    # The third touch ends it, so that he backs off twice.
+    assert touches == 2
     assert hovers > 10
-    arena.run(2)
-    assert male.mind.libido < 0.3
-    assert female.mind.libido < 0.3
+    assert max(male.mind.libido, female.mind.libido) < 0.1
 
 
 ACTS = ["courting", "circling", "ascending", "nuzzling", "spawned"]

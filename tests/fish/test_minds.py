@@ -346,7 +346,7 @@ RULES = [
 ]
 
 
-@pytest.mark.capability("TF-124", "AA-048")
+@pytest.mark.capability("TF-124")
 @pytest.mark.parametrize(("close", "bearing", "course", "expected"), RULES)
 def test_every_rule_of_escape(close, bearing, course, expected):
     one = mind("prey")

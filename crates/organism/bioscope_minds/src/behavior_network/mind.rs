@@ -40,12 +40,11 @@ impl BehaviorNetwork {
 }
 
 /// What is the case, each as a yes or no.
-fn facts(situation: &Situation, threatened: bool, discomfort: f32) -> Facts {
-    let company = situation.leader.is_some() || !situation.school.is_empty();
+fn facts(situation: &Situation, threatened: bool, afraid: bool, discomfort: f32) -> Facts {
     [
         threatened,
-        !situation.enemies.is_empty(),
-        company,
+        afraid,
+        situation.company(),
         !situation.food.is_empty(),
         !situation.mates.is_empty(),
         discomfort > 0.0,
@@ -89,7 +88,8 @@ impl Mind for BehaviorNetwork {
         let situation = character.perceive(percepts, random);
         let threat = character.threat(&situation);
         let discomfort = situation.discomfort(&character.nature, &character.temper);
-        let facts = facts(&situation, threat.is_some(), discomfort);
+        let afraid = character.drives.fear > character.temper.fear_threshold;
+        let facts = facts(&situation, threat.is_some(), afraid, discomfort);
         let wants = wants(character, &facts, discomfort);
         let before = self.behavior;
         for _ in 0..STEPS {

@@ -7,8 +7,8 @@ use crate::attention::Behavior;
 pub enum Predicate {
     /// Something threatens to collide.
     Threatened,
-    /// A predator is in view.
-    PredatorSeen,
+    /// A predator is feared.
+    Afraid,
     /// Own kind or a leader is in view.
     CompanySeen,
     /// Food is seen or smelled.
@@ -52,7 +52,7 @@ const NETWORK: [Node; NODES] = [
         None,
         &[ESCAPE, SCHOOL, FEED, COURT, WANDER],
     ),
-    node(Behavior::Escape, Some(Predicate::PredatorSeen), None, &[SCHOOL, FEED, COURT, WANDER]),
+    node(Behavior::Escape, Some(Predicate::Afraid), None, &[SCHOOL, FEED, COURT, WANDER]),
     node(Behavior::School, Some(Predicate::CompanySeen), None, &[FEED, COURT]),
     node(Behavior::Eat, Some(Predicate::FoodNoticed), None, &[COURT, SEEK]),
     node(Behavior::Eat, None, Some(Predicate::FoodNoticed), &[COURT]),
@@ -82,8 +82,8 @@ const MEAN: f32 = 20.0;
 /// Threshold of activation, `θ` (Maes 1989: 45), and by what it falls while nothing reaches it.
 const THRESHOLD: f32 = 45.0;
 const FALL: f32 = 0.9;
-/// Spreading steps per decision: the network settles within about ten ticks (choice).
-pub const STEPS: usize = 2;
+/// Spreading steps per decision: the network settles within a few ticks (choice).
+pub const STEPS: usize = 6;
 
 /// Activations of the network.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -190,7 +190,7 @@ mod tests {
         assert_eq!(settled(nothing, wants(&[(WANDER, 0.2)])), Behavior::Wander);
         assert_eq!(settled(food, wants(&[(FEED, 0.9), (WANDER, 0.2)])), Behavior::Eat);
         let mut danger = food;
-        danger[Predicate::PredatorSeen as usize] = true;
+        danger[Predicate::Afraid as usize] = true;
         let both = wants(&[(FEED, 0.9), (ESCAPE, 1.0)]);
         assert_eq!(settled(danger, both), Behavior::Escape);
         // Nothing to eat in sight: hunger flows backward from feeding to foraging.

@@ -67,6 +67,10 @@ fn safety(
             ballot.say(Behavior::Escape, enemy.position, -fear, 1);
             ballot.say(Behavior::Escape, -enemy.position, 1.2 * fear, 1);
         }
+        if situation.enemies.is_empty() && character.drives.fear > character.temper.fear_threshold {
+            // What is feared and not seen is behind.
+            ballot.say(Behavior::Escape, Vec3::Z, 1.2 * character.drives.fear, 1);
+        }
     }
 }
 

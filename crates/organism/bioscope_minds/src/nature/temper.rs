@@ -26,7 +26,7 @@ parameters! {
         /// Distance at which one predator causes all fear there is, `D0` (200 units); 35.7 makes a coward.
         fear_distance: f32 = 14.2857, "BL", 0.0..=1000.0, "Tu 1996, 6.2";
         /// Time after which the fear of what is out of sight has lost 63 percent.
-        alarm_time: f32 = 1.5, "s", 0.0..=1000.0, "choice: a hunter behind is out of sight, not gone";
+        alarm_time: f32 = 4.0, "s", 0.0..=1000.0, "choice: a hunter behind is out of sight, not gone";
         /// Share of a random meal and of a random wait for a mate with which its life begins.
         stagger: f32 = 1.0, "1", 0.0..=1.0, "choice: else all are hungry at once";
         /// Fear above which it cares, `f0`.

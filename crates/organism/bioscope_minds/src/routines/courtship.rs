@@ -9,8 +9,8 @@ use crate::nature::{Nature, Relation, Temper};
 
 /// Deviation from the partner swum through without a turn, radians (choice).
 const TOLERANCE: f32 = std::f32::consts::FRAC_PI_6;
-/// Seconds without sight of the partner after which it is given up.
-const PATIENCE: f64 = 2.0;
+/// Seconds without sight or heed of the partner after which it is given up.
+const PATIENCE: f64 = 4.0;
 /// Seconds after which a stage that does not come to its end is begun anew.
 const STAGE_LIMIT: f64 = 40.0;
 /// Seconds for which it shows that it has spawned.
@@ -57,8 +57,11 @@ pub struct Courtship {
     pub stage: Stage,
     /// World time at which the stage began, seconds.
     since: f64,
-    /// World time at which the partner was last seen.
+    /// World time at which the partner was last seen, and at which it last courted back.
     seen: f64,
+    heeded: f64,
+    /// Side on which it was last seen, +1 left, −1 right.
+    side: f32,
     /// World time up to which it swims a loop or backs off.
     busy_until: f64,
     /// Loops or touches so far.
@@ -102,8 +105,12 @@ impl Courtship {
             if self.partner != NOTHING && now - self.seen > PATIENCE {
                 self.begin(NOTHING, now);
             }
-            return (None, false);
+            // Out of sight for a moment: turns to where it was.
+            let search =
+                Command { turn: 1.5 * self.side, ..Command::ahead(0.7 * temper.cruise_speed) };
+            return ((self.partner != NOTHING).then_some(search), false);
         };
+        self.side = if partner.position.x < 0.0 { -1.0 } else { 1.0 };
         self.seen = now;
         self.transit(partner, situation, nature, temper);
         let female = nature.habits.female;
@@ -225,9 +232,13 @@ impl Courtship {
         let mine = wants && shown.partner == situation.percepts.id;
         let female = nature.habits.female;
         let near = partner.position.length() < 1.5 * situation.length;
+        if mine {
+            self.heeded = now;
+        }
+        let another = wants && !mine && shown.partner != NOTHING;
         let next = match self.stage {
             Stage::Seek | Stage::Follow | Stage::Display if mine => Stage::Loop,
-            Stage::Seek | Stage::Follow if wants && shown.partner != NOTHING => {
+            Stage::Seek | Stage::Follow if another => {
                 if female {
                     // He wants another: she looks for somebody else.
                     return self.give_up(now);
@@ -239,10 +250,8 @@ impl Courtship {
                 return self.give_up(now);
             }
             Stage::Display if !wants => Stage::Follow,
-            Stage::Loop | Stage::Circle | Stage::Ascend if !mine && wants => {
-                return self.give_up(now);
-            }
-            Stage::Loop if !wants => Stage::Follow,
+            Stage::Loop | Stage::Circle | Stage::Ascend if another => return self.give_up(now),
+            stage if stage > Stage::Display && now - self.heeded > PATIENCE => Stage::Follow,
             Stage::Loop if !female && self.count > temper.loops as u32 => Stage::Circle,
             Stage::Loop if female && shown.act == Act::Circling => Stage::Circle,
             Stage::Circle if female && self.turned.abs() >= TAU * temper.turns => Stage::Ascend,
