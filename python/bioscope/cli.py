@@ -231,10 +231,22 @@ def export(world: str, output: Path, seconds: float, fps: float, seed: int | Non
 @command("derive", "bioscope derive maple --steps 3")
 @model_name
 @steps_option
-@click.option("--seed", type=click.IntRange(0, 2**64 - 1), default=1, help="Seed.")
+@click.option("--seed", type=click.IntRange(0, 2**64 - 1), help="Seed; none: cpfg's own numbers.")
+@path_option("--view", metavar="FILE.v", help="View file: functions, curves, the turtle's angles.")
+@click.option("--environment", metavar="NAME [P=X…]|FILE.e", help="What surrounds the plant.")
 @click.option("--homomorphism", is_flag=True, help="The string as the turtle reads it.")
+@click.option("--check", is_flag=True, help="Only say what is wrong or doubtful.")
 @click.option("--format", "form", type=click.Choice(["string", "json"]), default="string")
-def derive(model: str, steps: int | None, seed: int, homomorphism: bool, form: str) -> None:
+def derive(
+    model: str,
+    steps: int | None,
+    seed: int | None,
+    view: Path | None,
+    environment: str | None,
+    homomorphism: bool,
+    check: bool,
+    form: str,
+) -> None:
     """Print the string that an L-system derives.
 
     MODEL is a file (bush.l, ./bush) or, without folder and ending, a name from `bioscope list`.
@@ -245,7 +257,14 @@ def derive(model: str, steps: int | None, seed: int, homomorphism: bool, form: s
     system = LSystem.read(model_path(model))
     for warning in system.warnings:
         say(warning)
-    string = system.derive(steps, seed)
+    if check:
+        say(f"{model}: {len(system.warnings) or 'no'} doubtful places")
+        return
+    given = {"view": view, "environment": environment}
+    options = {name: value for name, value in given.items() if value is not None}
+    string = system.derive(steps, seed, **options)
+    for line in [*string.output.splitlines(), *string.remarks]:
+        say(line)
     string = string.appearance() if homomorphism else string
     if form == "string":
         print(string.string())

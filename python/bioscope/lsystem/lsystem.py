@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from bioscope import _engine
 
@@ -25,7 +25,10 @@ class LSystem:
     source
         The text of the model.
     file
-        What errors call it.
+        What errors call it; a name that ends in `.lsys` says that the text is in the notation of
+        our own rather than in the cpfg dialect.
+    folder
+        Where files are that it includes; none forbids them.
 
     Raises
     ------
@@ -41,13 +44,16 @@ class LSystem:
     'ABAABABA'
     """
 
-    def __init__(self, source: str, file: str = "<text>") -> None:
-        self._engine = _engine.LSystem(source, file)
+    def __init__(
+        self, source: str, file: str = "<text>", folder: str | PathLike[str] | None = None
+    ) -> None:
+        self._engine = _engine.LSystem(source, file, folder)
 
     @classmethod
     def read(cls, path: str | PathLike[str]) -> LSystem:
-        """Read a model from a file."""
-        return cls(Path(path).read_text(encoding="utf-8", errors="replace"), str(path))
+        """Read a model from a file, which may include others of its folder."""
+        text = Path(path).read_text(encoding="utf-8", errors="replace")
+        return cls(text, str(path), Path(path).parent)
 
     @property
     def steps(self) -> int:
@@ -64,16 +70,37 @@ class LSystem:
         """What is doubtful in the file but not wrong."""
         return self._engine.warnings
 
-    def derive(self, steps: int | None = None, seed: int = 1) -> ModuleString:
-        """Return the string after `steps` steps (as many as the file says, if not given).
+    @property
+    def environment(self) -> str | None:
+        """Name and parameters of the environment that the file asks for."""
+        return self._engine.environment
+
+    def derive(
+        self, steps: int | None = None, seed: int | None = None, **options: Any
+    ) -> ModuleString:
+        """Return the string after `steps` steps.
+
+        Parameters
+        ----------
+        steps
+            How many; as many as the model says, if not given.
+        seed
+            Of the random numbers. Without one, a file of the cpfg dialect gives the string of the
+            reference program, whatever the `seed:` line of the file says.
+        **options
+            `environment` (a name with parameters, as "leaf_discs rho=0.89", or an .e file),
+            `view` (a .v file, for functions and the turtle), `folder` (where the model may read
+            and write files), `seconds` (after which it is stopped), `threads` (False for one).
 
         Raises
         ------
         FormatError
             If a production cannot be evaluated, or the string outgrows the limits (200 million
             modules, 2 GiB); the message names the production.
+        UnknownNameError
+            For an unknown option.
         """
-        return ModuleString(self._engine.derive(self.steps if steps is None else steps, seed))
+        return ModuleString(self._engine.derive(steps, seed, **options))
 
 
 class ModuleString:
@@ -92,6 +119,16 @@ class ModuleString:
     def appearance(self) -> ModuleString:
         """Return the string after the model's homomorphism, as the turtle reads it."""
         return ModuleString(self._engine.appearance())
+
+    @property
+    def output(self) -> str:
+        """What the model has printed (`printf`)."""
+        return self._engine.output
+
+    @property
+    def remarks(self) -> list[str]:
+        """What was tolerated but is doubtful, such as divisions by zero."""
+        return self._engine.remarks
 
     @property
     def symbols(self) -> list[str]:
