@@ -9,8 +9,13 @@ const LIMITS: Limits = Limits { modules: 20_000, bytes: 1 << 20, operations: 1_0
 
 fuzz_target!(|bytes: &[u8]| {
     let text = String::from_utf8_lossy(bytes);
-    let Ok(system) = LSystem::parse(&text, "fuzz.l") else { return };
-    let Ok(string) = system.derive_within(8, 1, &LIMITS) else { return };
+    // The first byte decides about the notation, and whether there is a seed.
+    let first = bytes.first().copied().unwrap_or(0);
+    let name = if first % 2 == 0 { "fuzz.l" } else { "fuzz.lsys" };
+    let seed = (first % 4 < 2).then_some(1_u64);
+    let Ok(system) = LSystem::parse(&text, name) else { return };
+    let Ok(string) = system.derive_within(8, seed, &LIMITS) else { return };
+    let Ok(string) = system.appearance(&string, seed) else { return };
     assert!(string.to_string().len() >= string.len());
     let Ok(drawn) = Turtle::interpret(&string, &TurtleOptions::default()) else { return };
     let shape = drawn.shape(&MeshOptions::default(), &SkeletonOptions::default());

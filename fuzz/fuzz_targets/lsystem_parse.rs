@@ -7,8 +7,10 @@ use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|bytes: &[u8]| {
     let text = String::from_utf8_lossy(bytes);
-    match LSystem::parse(&text, "fuzz.l") {
-        Ok(system) => assert!(!system.alphabet().kinds().is_empty()),
-        Err(reports) => assert!(reports.to_string().starts_with("fuzz.l:")),
+    for name in ["fuzz.l", "fuzz.lsys"] {
+        match LSystem::parse(&text, name) {
+            Ok(system) => assert!(!system.alphabet().kinds().is_empty()),
+            Err(reports) => assert!(reports.to_string().starts_with("fuzz.l")),
+        }
     }
 });
