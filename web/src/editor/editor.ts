@@ -24,10 +24,7 @@ const SLOW = 500;
 /** A text and its plant, side by side. */
 export class Editor {
   readonly root = element("div", { class: "bioscope bio-editor" });
-  readonly text = new TextPane(
-    () => this.edited(),
-    () => this.save(),
-  );
+  readonly text = new TextPane(() => this.edited());
   readonly growth = new GrowthBar(() => this.order());
   readonly notices = new Notices();
   readonly plant: PlantView;
@@ -58,7 +55,7 @@ export class Editor {
     });
     this.orders = new Orders((number, order) => this.connection.send({ do: "grow", number, ...order }));
     this.assemble();
-    this.root.addEventListener("keydown", (event) => this.press(event));
+    window.addEventListener("keydown", (event) => this.press(event), { capture: true });
     window.addEventListener("hashchange", () => void this.openLink());
     window.addEventListener("beforeunload", (event) => {
       if (this.unsaved) event.preventDefault();
@@ -119,6 +116,7 @@ export class Editor {
     else if (!command && !typing && event.key === "f") this.plant.frame();
     else return;
     event.preventDefault();
+    event.stopPropagation();
   }
 
   // What the server says.

@@ -52,12 +52,8 @@ export class TextPane {
   private quiet = false;
 
   /** `changed` is called after each change by hand. */
-  constructor(changed: () => void, save: () => void) {
+  constructor(changed: () => void) {
     this.element.className = "bio-text";
-    const run = () => {
-      save();
-      return true;
-    };
     this.view = new EditorView({
       parent: this.element,
       state: EditorState.create({
@@ -70,13 +66,7 @@ export class TextPane {
           highlightActiveLine(),
           highlightActiveLineGutter(),
           highlightSelectionMatches(),
-          keymap.of([
-            { key: "Mod-s", run },
-            ...defaultKeymap,
-            ...historyKeymap,
-            ...searchKeymap,
-            indentWithTab,
-          ]),
+          keymap.of([...defaultKeymap, ...historyKeymap, ...searchKeymap, indentWithTab]),
           lsystem,
           theme,
           EditorView.contentAttributes.of({ "aria-label": "text of the L-system" }),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import time
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import msgspec
@@ -37,13 +38,14 @@ class Grower:
     Parameters
     ----------
     file
-        What errors call the text.
+        What errors call the text; it may include others of this one's folder.
     palette
         Linear colours by number.
     """
 
     def __init__(self, file: str, palette: Palette) -> None:
         self._file = file
+        self._folder = Path(file).parent
         self._palette = palette
         self._compiled: tuple[str, LSystem] | None = None
 
@@ -56,6 +58,9 @@ class Grower:
             found = problems(str(error), self._file, "error")
             told = [msgspec.to_builtins(one) for one in found]
             return {"type": "failed", "number": order.number, "problems": told}
+        except Exception as error:
+            # A fault of the program, not of the text: the page says so, and the worker goes on.
+            return gave_up(order, f"{type(error).__name__}: {error}")
 
     def _grown(self, order: Grow) -> dict[str, Any]:
         system = self._system(order.text)
@@ -80,7 +85,7 @@ class Grower:
 
     def _system(self, text: str) -> LSystem:
         if self._compiled is None or self._compiled[0] != text:
-            self._compiled = (text, LSystem(text, self._file))
+            self._compiled = (text, LSystem(text, self._file, self._folder))
         return self._compiled[1]
 
     def _derived(self, system: LSystem, steps: int, order: Grow) -> ModuleString:

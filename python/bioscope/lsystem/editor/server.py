@@ -6,7 +6,7 @@ import asyncio
 import contextlib
 from typing import TYPE_CHECKING
 
-from bioscope import _engine
+from bioscope import _engine, environments
 from bioscope.errors import BioscopeError, FormatError
 from bioscope.live.door import (
     MALFORMED,
@@ -118,7 +118,7 @@ class Page:
             file=self._document.title,
             savable=self._document.savable,
             text=self._saved,
-            environments=[],
+            environments=environments.names(),
             most_modules=MOST_MODULES,
             most_letters=STRING_SHOWN,
         )
