@@ -185,7 +185,7 @@ fn one_part_that_shows_is_enough() {
     // Ten metres long, looking at us from the side, with a pillar before its middle.
     let mut scene = scene(&[Vec3::Z * 8.0]);
     scene.batches[0].transforms[0] =
-        Transform::new(Vec3::Z * 8.0, Quat::from_rotation_y(1.5708), 20.0);
+        Transform::new(Vec3::Z * 8.0, Quat::from_rotation_y(std::f32::consts::FRAC_PI_2), 20.0);
     let (medium, memory) = (Medium::default(), Memory::default());
     let outlook = Outlook::new(&scene, &memory);
     let pillar = |radius: f32| {
@@ -209,7 +209,7 @@ fn sizes_colors_headings_and_displays_are_seen_and_solids_noticed() {
     scene.batches[0].tints = vec![[0.5, 1.0, 2.0]];
     scene.batches[0].displays = vec![display];
     scene.batches[0].transforms[0] =
-        Transform::new(Vec3::Z * 2.0, Quat::from_rotation_y(1.5708), 0.5);
+        Transform::new(Vec3::Z * 2.0, Quat::from_rotation_y(std::f32::consts::FRAC_PI_2), 0.5);
     let (medium, memory, mut percepts) =
         (Medium::default(), Memory::default(), Percepts::default());
     let outlook = Outlook::new(&scene, &memory);
