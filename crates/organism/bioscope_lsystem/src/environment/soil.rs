@@ -311,8 +311,7 @@ impl SoilWater {
     fn spread(&mut self, share: f64) {
         self.next.clone_from(&self.water);
         let strides = [1, self.cells[0], self.cells[0] * self.cells[1]];
-        for axis in 0..3 {
-            let (stride, count) = (strides[axis], self.cells[axis]);
+        for (stride, count) in strides.into_iter().zip(self.cells) {
             if count < 2 {
                 continue;
             }

@@ -133,9 +133,9 @@ pub(super) fn clamped_spline<const N: usize>(points: &[[f64; N]], t: f64) -> [f6
         for index in (level..4).rev() {
             let (from, to) = (knot(piece + index), knot(piece + index + 4 - level));
             let share = if to > from { (u - from) / (to - from) } else { 0.0 };
-            for axis in 0..N {
-                row[index][axis] = (1.0 - share) * row[index - 1][axis] + share * row[index][axis];
-            }
+            let (before, here) = (row[index - 1], row[index]);
+            row[index] =
+                std::array::from_fn(|axis| (1.0 - share) * before[axis] + share * here[axis]);
         }
     }
     row[3]

@@ -219,7 +219,7 @@ impl Builder<'_> {
     fn band(&mut self, below: u32, above: u32, sides: u32) {
         let corners = |index: u32| {
             let (a, b) = (below + index / 2, above + index / 2);
-            if index % 2 == 0 { [a, a + 1, b] } else { [a + 1, b + 1, b] }
+            if index.is_multiple_of(2) { [a, a + 1, b] } else { [a + 1, b + 1, b] }
         };
         self.mesh.triangles.extend((0..2 * sides).map(corners));
     }
