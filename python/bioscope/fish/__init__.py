@@ -1,5 +1,6 @@
-"""Fish bodies that swim with muscles: springs, water and motor controllers, one fish at a time."""
+"""Fish bodies that swim with muscles: springs, water and motor controllers."""
 
+from bioscope.fish.shoal import Shoal
 from bioscope.fish.tank import Preset, Tank
 
-__all__ = ["Preset", "Tank"]
+__all__ = ["Preset", "Shoal", "Tank"]

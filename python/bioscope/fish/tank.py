@@ -141,6 +141,10 @@ class Tank:
         angles = {"yaw": yaw, "pitch": pitch, "roll": roll}
         self._engine.place(*(_finite(name, angle) for name, angle in angles.items()))
 
+    def deform(self, nodes: ArrayLike) -> None:
+        """Put the nodes at these places (23, 3) in metres, at rest."""
+        self._engine.deform(np.asarray(nodes, dtype=np.float64))
+
     def flow(self, velocity: Sequence[float]) -> None:
         """Let the water flow with this velocity (x, y, z), m/s."""
         x, y, z = (_finite("velocity", axis) for axis in velocity)

@@ -21,6 +21,7 @@ mod publication;
 mod rasterizer;
 mod rig;
 mod scene;
+mod shoal;
 mod skin;
 mod stream;
 mod tank;
@@ -65,6 +66,8 @@ mod _engine {
     use super::rasterizer::Rasterizer;
     #[pymodule_export]
     use super::scene::{Batch, Points, Scene};
+    #[pymodule_export]
+    use super::shoal::Shoal;
     #[pymodule_export]
     use super::stream::Encoder;
     #[pymodule_export]

@@ -4,7 +4,7 @@ use bioscope_core::{Error, Quat, Result, Vec3};
 use bioscope_dynamics::spring_body::Integrator;
 use bioscope_motion::fish::{Command, FishModel, Frame, Swimmers};
 use bioscope_populations::fish::FishSpecies;
-use numpy::{IntoPyArray, PyArrayMethods, PyReadonlyArray1};
+use numpy::{IntoPyArray, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 
 use crate::arrays::{Array1, Array2};
@@ -85,6 +85,19 @@ impl Tank {
 
     fn set_flow(&self, flow: [f32; 3]) {
         self.lock().fish.set_flow(0, Vec3::from_array(flow));
+    }
+
+    fn deform(&self, nodes: PyReadonlyArray2<'_, f64>) -> PyResult<()> {
+        let nodes = nodes.as_array();
+        let shape = format!("{:?}", nodes.shape());
+        let whole = nodes.iter().copied().collect::<Vec<f64>>();
+        let wrong = || to_python(Error::value("nodes", shape, "finite numbers in shape (23, 3)"));
+        if nodes.shape() != [23, 3] || !whole.iter().all(|axis| axis.abs() < 1e6) {
+            return Err(wrong());
+        }
+        let nodes = std::array::from_fn(|node| std::array::from_fn(|axis| whole[3 * node + axis]));
+        self.lock().fish.set_nodes(0, &nodes);
+        Ok(())
     }
 
     fn kick(&self, change: [f32; 3]) {

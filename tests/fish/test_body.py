@@ -1,0 +1,209 @@
+"""The body of springs: what it is made of, what it keeps, how it swims."""
+
+import numpy as np
+import pytest
+
+import bioscope as bio
+
+
+def swum(tank: bio.fish.Tank, seconds: float, every: int = 4) -> dict[str, np.ndarray]:
+    """Step and record centers, snouts, tails and headings."""
+    kept: dict[str, list] = {"center": [], "snout": [], "tail": [], "yaw": []}
+    for _ in range(round(seconds / tank.dt / every)):
+        tank.step(steps=every)
+        nodes = tank.nodes
+        kept["center"].append(tank.center)
+        kept["snout"].append(nodes[0])
+        kept["tail"].append(nodes[-2:].mean(axis=0))
+        kept["yaw"].append(tank.yaw)
+    return {name: np.array(values) for name, values in kept.items()}
+
+
+def elastic_rest(tank: bio.fish.Tank) -> float:
+    """Return the greatest relative deformation of any unit from its length at rest."""
+    ends = tank.units[:, :2].astype(int)
+    lengths = np.linalg.norm(np.diff(tank.nodes[ends], axis=1)[:, 0], axis=1)
+    return float(np.abs(lengths / tank.units[:, 2] - 1).max())
+
+
+@pytest.mark.capability("TF-010", "TF-013", "TF-014", "TF-021")
+def test_the_published_fish_is_made_as_published():
+    tank = bio.fish.Tank("anthias", preset="published", length=0.5)
+    units = tank.units
+    assert tank.nodes.shape == (23, 3)
+    assert units.shape == (91, 5)
+    assert tank.half_bandwidth == 7
+    assert tank.stored_entries == 126
+    assert [tuple(ends) for ends in units[:12, :2].astype(int)] == [
+        (i, i + 4) for i in range(1, 13)
+    ]
+    shares = tank.masses / tank.mass * 107.03
+    assert shares[[0, *range(13, 21)]] == pytest.approx(1.1, rel=1e-6)
+    assert shares[[*range(1, 5), *range(9, 13)]] == pytest.approx(6.6, rel=1e-6)
+    assert shares[5:9] == pytest.approx(11.0, rel=1e-6)
+    assert shares[21:] == pytest.approx(0.165, rel=1e-6)
+    stiffness = units[:, 3] / tank.mass * tank.time_unit**2 * 107.03
+    assert sorted({round(float(value)) for value in stiffness}) == [28, 30, 38]
+    assert stiffness[:12] == pytest.approx(28, rel=1e-3)
+    damping = units[:, 4] / tank.mass * tank.time_unit * 107.03
+    assert damping == pytest.approx(0.1, rel=1e-3)
+    assert np.ptp(tank.nodes[:, 2]) == pytest.approx(0.5)
+
+
+@pytest.mark.capability("TF-011", "TF-026")
+def test_an_impulse_dies_away_and_the_shape_returns():
+    tank = bio.fish.Tank("anthias")
+    assert tank.energy < 1e-10
+    rng = np.random.default_rng(4)
+    for _ in range(60):
+        tank.step(rng.uniform(0, 1, 12))
+    assert elastic_rest(tank) > 0.01
+    tank.step(np.zeros(12), steps=60)
+    before = tank.energy
+    for _ in range(200):
+        tank.step(np.zeros(12), steps=10)
+        after = tank.energy
+        assert after <= before * (1 + 1e-9)
+        before = after
+    assert elastic_rest(tank) < 0.005
+
+
+@pytest.mark.capability("TF-012")
+def test_a_contracted_side_is_the_inner_side():
+    tank = bio.fish.Tank("anthias", water=0.2)
+    left = np.tile([1.0, 1.0, 0.0, 0.0], 3)
+    tank.step(left, steps=2000)
+    assert tank.contraction == pytest.approx(left)
+    nodes = tank.nodes
+    chord = 0.5 * (nodes[0] + nodes[-2:].mean(axis=0))
+    middle = nodes[5:9].mean(axis=0)
+    left_of_body = nodes[5:7].mean(axis=0) - nodes[7:9].mean(axis=0)
+    assert np.dot(chord - middle, left_of_body) > 0
+    ends = tank.units[:12, :2].astype(int)
+    lengths = np.linalg.norm(np.diff(nodes[ends], axis=1)[:, 0], axis=1) / tank.units[:12, 2]
+    assert (lengths[np.tile([True, True, False, False], 3)] < 0.95).all()
+
+
+@pytest.mark.capability("TF-016")
+def test_the_greatest_girth_is_just_before_the_middle():
+    for preset in ("calibrated", "published"):
+        nodes = bio.fish.Tank("anthias", preset=preset).nodes
+        rings = nodes[1:21].reshape(5, 4, 3)
+        areas = np.ptp(rings[:, :, 0], axis=1) * np.ptp(rings[:, :, 1], axis=1)
+        place = (nodes[0, 2] - rings[areas.argmax(), 0, 2]) / np.ptp(nodes[:, 2])
+        assert 0.35 <= place <= 0.5
+
+
+@pytest.mark.capability("TF-017")
+def test_swimming_has_the_measures_of_a_carangiform_swimmer():
+    tank = bio.fish.Tank("anthias")
+    length, speed = tank.length, tank.cruise
+    tank.swim(speed)
+    tank.kick((0, 0, speed))
+    tank.run(5)
+    beat = np.interp(speed, tank.strokes[:, 0], tank.strokes[:, 1])
+    track = swum(tank, 20 / beat)
+    way = track["center"][-1] - track["center"][0]
+    mean_speed = np.linalg.norm(way) / (len(track["center"]) * 4 * tank.dt)
+    side = np.cross([0, 1, 0], way / np.linalg.norm(way))
+    tail = np.ptp((track["tail"] - track["center"][0]) @ side)
+    recoil = np.ptp((track["snout"] - track["center"][0]) @ side)
+    assert 0.2 <= beat * tail / mean_speed <= 0.45
+    assert mean_speed / beat >= 0.3 * length
+    assert recoil < 0.1 * length
+    half = len(track["yaw"]) // 2
+    assert abs(track["yaw"][half:].mean() - track["yaw"][:half].mean()) < np.radians(5)
+    lateral = (track["center"] - track["center"][0]) @ side
+    assert abs(np.polyfit(np.arange(len(lateral)), lateral, 1)[0] * len(lateral)) < 0.1 * length
+    assert mean_speed == pytest.approx(speed, rel=0.15)
+
+
+@pytest.mark.capability("TF-018", "TF-024")
+def test_without_water_the_tail_beats_in_place():
+    def moved(water: float) -> tuple[float, float]:
+        tank = bio.fish.Tank("anthias", water=water)
+        tank.feedback(False)
+        tank.swim(tank.cruise)
+        track = swum(tank, 4)
+        swing = np.ptp((track["tail"] - track["center"])[:, 0])
+        return float(np.linalg.norm(track["center"][-1])) / tank.length, float(swing)
+
+    still, wide = moved(0.0)
+    swims, narrow = moved(1.0)
+    thick, _ = moved(3.0)
+    assert still < 1e-6
+    assert swims > 1
+    assert abs(thick - swims) > 0.02 * swims
+    assert wide > narrow
+
+
+@pytest.mark.capability("TF-019", "TF-025")
+def test_a_passive_fish_floats_and_is_carried_by_the_current():
+    tank = bio.fish.Tank("anthias")
+    tank.run(10)
+    assert np.abs(tank.center).max() < 1e-6
+    tank.flow((0.1, 0, 0.02))
+    tank.run(60)
+    assert tank.velocity == pytest.approx([0.1, 0, 0.02], abs=0.01)
+    assert abs(tank.center[1]) < 0.1 * tank.length
+
+
+@pytest.mark.capability("TF-020", "TF-023")
+def test_the_implicit_step_holds_where_the_others_break():
+    def holds(integrator: str, step: float, count: int = 4000) -> bool:
+        unit = bio.fish.Tank("anthias", preset="published").time_unit
+        tank = bio.fish.Tank("anthias", preset="published", integrator=integrator, dt=step * unit)
+        tank.swim(tank.cruise)
+        try:
+            tank.step(steps=count)
+        except bio.BioscopeError:
+            return False
+        return bool(np.isfinite(tank.nodes).all()) and elastic_rest(tank) < 0.5
+
+    assert holds("implicit", 0.44, 1000)
+    assert holds("implicit", 0.055)
+    assert holds("semi_implicit", 0.03)
+    assert not holds("semi_implicit", 0.2)
+    assert holds("explicit", 0.001)
+    assert not holds("explicit", 0.03)
+
+
+@pytest.mark.capability("TF-020")
+def test_random_activation_is_survived_for_a_hundred_thousand_steps():
+    tank = bio.fish.Tank("anthias")
+    rng = np.random.default_rng(1)
+    for _ in range(2500):
+        tank.step(rng.uniform(0, 1, 12), steps=40)
+    tank.step(np.zeros(12), steps=3000)
+    assert elastic_rest(tank) < 0.01
+
+
+@pytest.mark.capability("TF-015")
+def test_a_heavy_head_and_tail_swim_worse():
+    published = bio.fish.Tank("anthias", preset="published")
+    calibrated = bio.fish.Tank("anthias")
+    stride = [
+        tank.strokes[1:, 0] / tank.strokes[1:, 1] / tank.length for tank in (published, calibrated)
+    ]
+    assert stride[1].max() > stride[0].max()
+
+
+def test_bad_input_is_refused_by_name():
+    with pytest.raises(bio.BioscopeError, match="known"):
+        bio.fish.Tank("unicorn")
+    with pytest.raises(bio.BioscopeError, match="preset"):
+        bio.fish.Tank("anthias", preset="wrong")
+    for wrong in ({"dt": float("nan")}, {"dt": -1}, {"length": 0}, {"water": -1}):
+        with pytest.raises(bio.BioscopeError):
+            bio.fish.Tank("anthias", **wrong)
+    tank = bio.fish.Tank("anthias")
+    with pytest.raises(bio.BioscopeError, match="activations"):
+        tank.step(np.zeros(11))
+    with pytest.raises(bio.BioscopeError, match="activations"):
+        tank.step(np.full(12, np.nan))
+    with pytest.raises(bio.BioscopeError, match="speed"):
+        tank.swim(float("inf"))
+    with pytest.raises(bio.BioscopeError, match="radians"):
+        tank.turn(90)
+    tank.step()
+    assert np.isfinite(tank.nodes).all()
