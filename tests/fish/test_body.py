@@ -178,8 +178,7 @@ def test_random_activation_is_survived_for_a_hundred_thousand_steps():
     assert elastic_rest(tank) < 0.01
 
 
-@pytest.mark.capability("TF-015")
-def test_a_heavy_head_and_tail_swim_worse():
+def test_the_calibrated_fish_strides_longer_than_the_published_one():
     published = bio.fish.Tank("anthias", preset="published")
     calibrated = bio.fish.Tank("anthias")
     stride = [

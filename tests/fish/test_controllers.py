@@ -84,7 +84,7 @@ def test_a_u_turn_is_made_of_parts():
     assert abs(abs(angle) - 180) < 20
 
 
-@pytest.mark.capability("TF-035", "TF-041", "TF-046")
+@pytest.mark.capability("TF-035", "TF-046")
 def test_the_steering_map_rises():
     bends = bio.fish.Tank("anthias").bends
     assert (np.diff(bends[:, 0]) > 0).all()
