@@ -152,11 +152,6 @@ impl Spine {
         (ORIGIN - share) * self.length
     }
 
-    /// Where a link begins, as a share of the length; the last ends at 1.
-    pub(crate) fn cut(&self, link: usize) -> f32 {
-        self.cuts[link]
-    }
-
     /// The joints at rest, for the skin of a mesh.
     pub fn joints(&self) -> Vec<Joint> {
         let links = self.cuts[..self.masses.len()].iter().enumerate().map(|(link, &cut)| Joint {
@@ -331,11 +326,6 @@ pub fn spine_pose(spine: &Spine, swim: &SwimState, out: &mut [Transform]) {
     for pose in &mut out[..spine.link_count()] {
         pose.position -= drift;
     }
-    hinge_poses(spine, swim, out);
-}
-
-/// Writes the poses of the fins, which `out` has after those of the links that carry them.
-pub(crate) fn hinge_poses(spine: &Spine, swim: &SwimState, out: &mut [Transform]) {
     pose_hinges(spine, swim, out);
 }
 

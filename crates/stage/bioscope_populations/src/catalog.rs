@@ -157,7 +157,8 @@ pub fn fish_with_minds(
         }
         let mind = mind();
         let foreign = mind.is_some();
-        let animal = fish::roaming(&species, &look, mind, &asked.food, asked.body.unwrap_or_default())?;
+        let animal =
+            fish::roaming(&species, &look, mind, &asked.food, asked.body.unwrap_or_default())?;
         Ok(Animal { may_fail: foreign, ..animal })
     });
     let place = Some(Place { center: asked.center, radius: asked.radius });

@@ -74,7 +74,7 @@ macro_rules! lanewise {
             #[inline(always)]
             fn $method(mut self, other: Self) -> Self {
                 for lane in 0..8 {
-                    self.0[lane] = self.0[lane] $operator other.0[lane];
+                    self.0[lane] $operator other.0[lane];
                 }
                 self
             }
@@ -82,7 +82,7 @@ macro_rules! lanewise {
     )*};
 }
 
-lanewise!(Add add +, Sub sub -, Mul mul *, Div div /);
+lanewise!(Add add +=, Sub sub -=, Mul mul *=, Div div /=);
 
 impl AddAssign for Lanes {
     #[inline(always)]

@@ -99,8 +99,9 @@ fn dense(mut matrix: Vec<Vec<f64>>, mut right: Vec<f64>) -> Vec<f64> {
         right.swap(column, best);
         for row in column + 1..size {
             let factor = matrix[row][column] / matrix[column][column];
-            for at in column..size {
-                matrix[row][at] -= factor * matrix[column][at];
+            let pivot = matrix[column].clone();
+            for (value, above) in matrix[row].iter_mut().zip(&pivot).skip(column) {
+                *value -= factor * above;
             }
             right[row] -= factor * right[column];
         }

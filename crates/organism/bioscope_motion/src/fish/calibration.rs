@@ -191,7 +191,7 @@ pub fn measure_bend(design: &FishDesign, depth: f64, hold: f64) -> Result<f64> {
         }
         last = now;
     }
-    let side = |index: usize| if index % 2 == 0 { 1.0 } else { -1.0 };
+    let side = |index: usize| if index.is_multiple_of(2) { 1.0 } else { -1.0 };
     Ok((0..8).map(|index| side(index) * turned[index]).sum::<f64>() / 8.0)
 }
 

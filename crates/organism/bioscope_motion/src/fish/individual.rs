@@ -94,8 +94,8 @@ impl<R: Dispatch> Group<R> {
         let before = self.body.clone();
         for (lane, member) in self.members.iter().enumerate() {
             for node in &mut desk.flow {
-                for axis in 0..3 {
-                    node[axis].set_lane(lane, member.flow[axis]);
+                for (axis, flow) in node.iter_mut().zip(member.flow) {
+                    axis.set_lane(lane, flow);
                 }
             }
         }
@@ -160,13 +160,13 @@ impl<R: Dispatch> Group<R> {
     fn center(&mut self, model: &FishModel, lane: usize) {
         let center = self.mean(model, lane, &self.body.position);
         for node in &mut self.body.position {
-            for axis in 0..3 {
-                node[axis].set_lane(lane, node[axis].lane(lane) - center[axis]);
+            for (axis, by) in node.iter_mut().zip(center) {
+                axis.set_lane(lane, axis.lane(lane) - by);
             }
         }
         let member = &mut self.members[lane];
-        for axis in 0..3 {
-            member.origin[axis] += member.length * center[axis];
+        for (axis, by) in member.origin.iter_mut().zip(center) {
+            *axis += member.length * by;
         }
     }
 

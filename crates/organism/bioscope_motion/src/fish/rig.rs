@@ -17,14 +17,14 @@ pub fn pose_from_nodes(
     assert_eq!(out.len(), spine.joint_count(), "poses of a spine");
     let line = CenterLine::new(shape, nodes);
     let length = spine.length();
-    for link in 0..spine.link_count() {
-        let [fore, hind] = [spine.cut(link), spine.cut(link + 1)];
+    for (link, pose) in out[..spine.link_count()].iter_mut().enumerate() {
+        let [fore, hind] = [spine.cuts()[link], spine.cuts()[link + 1]];
         let (start, end) = (line.point(fore), line.point(hind));
         let ahead = (start - end).normalize_or(Vec3::Z);
         let up = line.up(0.5 * (fore + hind));
         let left = up.cross(ahead).normalize_or(Vec3::X);
         let rotation = Quat::from_mat3(&Mat3::from_cols(left, ahead.cross(left), ahead));
-        out[link] = Transform::new(start * length, rotation.normalize(), 1.0);
+        *pose = Transform::new(start * length, rotation.normalize(), 1.0);
     }
     pose_hinges(spine, swim, out);
 }

@@ -45,7 +45,7 @@ impl Swimmers<Lanes> {
     pub fn restore_one(model: Arc<FishModel>, bytes: &[u8]) -> Result<Self> {
         let saved: Saved = state::from_bytes(PART, bytes)?;
         let counts = [saved.position.len(), saved.velocity.len(), saved.contraction.len()];
-        if counts != [NODES, NODES, MUSCLES] || !(saved.time_unit > 0.0) {
+        if counts != [NODES, NODES, MUSCLES] || saved.time_unit.is_nan() || saved.time_unit <= 0.0 {
             return Err(Error::format(PART, "not a fish of 23 nodes and 12 muscles"));
         }
         let mut group = Group::new(&model);

@@ -6,7 +6,6 @@
 //! Animals for Computer Animation", section 5.1, binds NURBS control points to the nodes; here the
 //! spine of the skinned form follows the same line).
 
-mod pose;
 mod swimmer;
 #[cfg(test)]
 mod tests;

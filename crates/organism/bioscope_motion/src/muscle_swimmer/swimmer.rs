@@ -3,13 +3,11 @@ use std::sync::Arc;
 
 use bioscope_core::{Intention, Quat, Random, Result, Value, Vec3, math, state};
 use bioscope_dynamics::Influence;
-use bioscope_dynamics::spring_body::fish::CENTER_LINE;
 use bioscope_geometry::Transform;
 
-use super::pose::CenterLine;
 use crate::Body;
-use crate::fish::{Command, FishModel, Swimmers};
-use crate::undulation::{Spine, SwimState, hinge_poses};
+use crate::fish::{Command, FishModel, Swimmers, pose_from_nodes};
+use crate::undulation::{Spine, SwimState};
 
 /// A fish that swims by its muscles; see the [module](super).
 #[derive(Clone, Debug)]
@@ -75,12 +73,6 @@ impl MuscleSwimmer {
     /// Size relative to that of the spine.
     fn scale(&self) -> f32 {
         self.fish.length(0) as f32 / self.spine.length()
-    }
-
-    /// Shares of the length at rest of the points of the center line.
-    fn shares(&self) -> [f32; CENTER_LINE.len()] {
-        let nodes = &self.fish.model().mechanics.anatomy.nodes;
-        CENTER_LINE.map(|ring| -nodes[ring[0]][2] as f32)
     }
 
     /// Puts one of this length in its place, at rest.
@@ -156,8 +148,6 @@ impl Body for MuscleSwimmer {
     }
 
     fn pose(&self, out: &mut [Transform]) {
-        let line = CenterLine::new(&self.fish.local_nodes(0), self.shares());
-        line.pose(&self.spine, out);
         let motor = self.fish.motor(0);
         let swim = SwimState {
             fan: motor.fins.beat,
@@ -165,7 +155,8 @@ impl Body for MuscleSwimmer {
             bend: [0.5 * motor.bend; 2],
             ..SwimState::default()
         };
-        hinge_poses(&self.spine, &swim, out);
+        let shape = &self.fish.model().design.shape;
+        pose_from_nodes(&self.spine, shape, &self.fish.local_nodes(0), &swim, out);
     }
 
     fn energy_spent(&self) -> f32 {

@@ -1,6 +1,8 @@
 use std::sync::Arc;
 
-use bioscope_core::{Act, Annotation, Error, Id, Intention, NOTHING, Percepts, Purpose, Result, Vec3};
+use bioscope_core::{
+    Act, Annotation, Error, Id, Intention, NOTHING, Percepts, Purpose, Result, Vec3,
+};
 use bioscope_dynamics::Influence;
 use bioscope_minds::Mind;
 use bioscope_motion::Body;

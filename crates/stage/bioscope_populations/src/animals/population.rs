@@ -2,7 +2,9 @@ use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use bioscope_core::{Error, Event, Id, NOTHING, Parameters, Purpose, Random, Result, Value, Vec3, math};
+use bioscope_core::{
+    Error, Event, Id, NOTHING, Parameters, Purpose, Random, Result, Value, Vec3, math,
+};
 use bioscope_dynamics::Influence;
 use bioscope_geometry::{Batch, Transform};
 use bioscope_motion::MuscleSwimmer;
@@ -240,7 +242,9 @@ impl Population for Animals {
             for sound in &mut sounds[first..] {
                 (sound.source, sound.time) = (individual.id, moment.time);
             }
-            events.extend(individual.record.bite.map(|prey| feeding::bitten_by(individual.id, prey, moment)));
+            events.extend(
+                individual.record.bite.map(|prey| feeding::bitten_by(individual.id, prey, moment)),
+            );
             for (kind, object) in individual.record.events() {
                 events.push(Event {
                     tick: moment.tick,

@@ -13,8 +13,8 @@ mod trunk;
 
 pub use color::Color;
 pub use form::FishForm;
-pub(crate) use roaming::look_from;
 pub use minded::{MINDS, MindRequest, mind};
+pub(crate) use roaming::look_from;
 pub use roaming::{BodyKind, look, minded, roaming};
 pub use school::{FishSchool, FishSchoolOptions, SchoolParameters};
 pub use species::{Detail, FishSpecies};

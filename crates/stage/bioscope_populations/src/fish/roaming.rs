@@ -5,9 +5,7 @@ use std::sync::Arc;
 use bioscope_core::{Error, Result, state};
 use bioscope_minds::{Mind, Roamer};
 use bioscope_motion::{Body, MuscleSwimmer, Swimmer, SwimmerParameters};
-use bioscope_senses::{
-    Hearing, LateralLine, Light, Sense, Sight, Smell, SmellParameters, Touch,
-};
+use bioscope_senses::{Hearing, LateralLine, Light, Sense, Sight, Smell, SmellParameters, Touch};
 use serde::Deserialize;
 
 use super::{FishSpecies, MindRequest};
