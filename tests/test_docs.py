@@ -65,6 +65,13 @@ def test_the_readmes_ten_lines_run_as_written(tmp_path, monkeypatch):
     assert (tmp_path / "school.mp4").stat().st_size > 1000
 
 
+def test_the_guide_to_training_runs_as_written(tmp_path):
+    for number, text in enumerate(blocks("docs/guides/train.md", "python")):
+        script = tmp_path / f"train_{number}.py"
+        script.write_text(text)
+        runpy.run_path(str(script))
+
+
 def test_one_version_number():
     import json
     import tomllib
