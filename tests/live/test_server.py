@@ -164,7 +164,9 @@ def test_what_was_changed_is_changed_again_in_a_replay(server):
             hello = await one.until(lambda one: one["type"] == "hello")
             first = await one.frame(lambda frame: frame["tick"] == 20)
             await one.say("set", owner="drifters", name="wander", value=0.0)
-            changed = await one.until(lambda one: one["type"] == "parameters")
+            await one.until(
+                lambda one: one["type"] == "parameters" and wander(one["owners"]) == 0.0
+            )
             await one.say("step", ticks=30)
             end = await one.frame(lambda frame: frame["tick"] == 50)
             await one.say("seek", tick=20)
@@ -172,16 +174,14 @@ def test_what_was_changed_is_changed_again_in_a_replay(server):
             await one.say("seek", tick=50)
             again = await one.frame(lambda frame: frame["tick"] == 50)
             await one.say("play")
-            return hello, first, changed, end, again
+            return hello, first, end, again
 
-    hello, first, changed, end, again = run(scene())
+    def wander(owners):
+        rows = next(owner["parameters"] for owner in owners if owner["name"] == "drifters")
+        return next(row["value"] for row in rows if row["name"] == "wander")
+
+    hello, first, end, again = run(scene())
     assert hello["seed"] == 8
-    values = {
-        (owner["name"], row["name"]): row["value"]
-        for owner in changed["owners"]
-        for row in owner["parameters"]
-    }
-    assert values["drifters", "wander"] == 0.0
     assert end["drifting"]["drifters"] == again["drifting"]["drifters"]
     assert end["drifting"]["drifters"] != first["drifting"]["drifters"]
 
@@ -274,9 +274,11 @@ def test_oversized_messages_are_refused(server):
             await one.link.send("x" * 200_000)
             with pytest.raises(websockets.ConnectionClosed) as closed:
                 await asyncio.wait_for(one.until_closed(), 10)
-            return closed.value.rcvd.code
+            return closed.value.rcvd
 
-    assert run(scene()) == 1009
+    farewell = run(scene())
+    # A link that is cut with half a message under way may lose the farewell.
+    assert farewell is None or farewell.code == 1009
 
 
 def test_nothing_is_done_before_join_and_other_versions_are_told(server):

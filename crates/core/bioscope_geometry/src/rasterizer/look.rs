@@ -26,6 +26,9 @@ const ROWS: usize = 72;
 /// Share of the visibility beyond which pixels are colored two by two.
 const HAZE: f32 = 0.2;
 
+/// Rise of a direction under which waves let no sky through: Snell's window begins at 0.66.
+const STEEP: f32 = 0.4;
+
 /// Things that would be smaller than this many pixels are left out.
 const LEAST: f32 = 0.3;
 
@@ -301,7 +304,9 @@ impl Look<'_> {
                 let index = (row - strip.rows[0]) * strip.width + column;
                 if corner != [column, row] && nearness[0] < self.haze {
                     let thing = [owners, samples.of(corner[0], corner[1]).0];
-                    if self.is_one_thing(thing.as_flattened(), &last) {
+                    let alike = self.is_one_thing(thing.as_flattened(), &last)
+                        && (owners[0] != NOBODY || self.sees_only_water(corner));
+                    if alike {
                         let known = (corner[1] - strip.rows[0]) * strip.width + corner[0];
                         strip.color[index] = strip.color[known];
                         strip.depth[index] = strip.depth[known];
@@ -326,6 +331,16 @@ impl Look<'_> {
         }
         let draw = self.draw_of(owners[0], last);
         owners.iter().all(|owner| (draw.first..draw.last).contains(owner))
+    }
+
+    /// Whether a pixel that shows no thing shows water only: neither sky nor Snell's window.
+    #[inline(always)]
+    fn sees_only_water(&self, [column, row]: [usize; 2]) -> bool {
+        self.shader.eye.depth > 0.0
+            && self
+                .lens
+                .ray(column * 2, row * 2)
+                .is_none_or(|ray| self.shader.stand.outward(ray).y < STEEP)
     }
 
     /// Mean color of a pixel's four samples; depth and identity of the thing that most of them see.
