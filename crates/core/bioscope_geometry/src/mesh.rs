@@ -8,6 +8,7 @@ use crate::{Key, Transform};
 
 pub(crate) mod levels;
 mod simplify;
+mod sparse;
 pub(crate) mod tiles;
 
 /// A triangle mesh in its own space, shared by all its instances; never changed once published

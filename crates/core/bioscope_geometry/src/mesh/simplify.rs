@@ -380,7 +380,8 @@ impl Mesh {
     }
 }
 
-fn taken<T: Copy>(values: &[T], kept: &[usize]) -> Vec<T> {
+/// The values of the vertices that are kept; none if there are none at all.
+pub(super) fn taken<T: Copy>(values: &[T], kept: &[usize]) -> Vec<T> {
     if values.is_empty() { Vec::new() } else { kept.iter().map(|&vertex| values[vertex]).collect() }
 }
 

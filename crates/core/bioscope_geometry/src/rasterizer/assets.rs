@@ -118,6 +118,9 @@ impl Part {
         };
         let coarser = mesh.levels.iter().map(|(size, level)| (*size, sound(level)));
         levels.extend(coarser.filter(|(_, level)| same_joints(level)));
+        let (size, last) = &levels[levels.len() - 1];
+        let sparse = mesh.sparse_levels(radius, (*size, last.triangles.len()));
+        levels.extend(sparse.into_iter().map(|(size, level)| (size, Arc::new(level))));
         Self { center, radius, levels, joints: joint_balls(mesh), tile: None }
     }
 

@@ -162,7 +162,7 @@ fn depth_and_identity_agree_with_rays_cast_at_balls_and_a_plane() {
         batch(ball(44), Material::default(), &places),
         batch(square(50.0), Material::default(), &[(2, flat)]),
     ]);
-    let prepared = prepare(&scene, &Options { detail: 1.0, ..Options::eye() });
+    let prepared = prepare(&scene, &Options { detail: 4.0, ..Options::eye() });
     for camera in lenses(Vec3::new(0.1, 0.0, 0.2), Vec3::new(0.2, -0.1, -3.0)) {
         let size = [72, 60];
         let view = prepared.look(&camera, size[0], size[1]);
