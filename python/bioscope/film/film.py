@@ -8,7 +8,9 @@ from __future__ import annotations
 
 import shutil
 import time
+from collections import deque
 from collections.abc import Callable, Iterator
+from concurrent.futures import Future, ThreadPoolExecutor
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -25,10 +27,13 @@ from bioscope.film.options import FilmOptions
 from bioscope.film.renderer import renderer
 
 if TYPE_CHECKING:
+    from bioscope._engine import Camera, Scene
     from bioscope.world import World
 
 SAMPLE_RATE = 48_000
 _SEGMENT_FRAMES = {"preview": 30, "path": 4}
+# A picture's preparation has serial parts, during which another can be painted.
+_PICTURES_AHEAD = {"preview": 2, "path": 0}
 _SOUND_BLOCK_SECONDS = 1.0
 
 Say = Callable[..., None]
@@ -202,22 +207,37 @@ class Shooting:
         self._say(f"picture {end} of {self._options.frame_count}, {took:.1f} s")
 
     def _pictures(self, first: int, end: int) -> Iterator[NDArray[np.uint8]]:
-        """Run the world from picture to picture and render each."""
+        """Run the world from picture to picture and render each; it runs on meanwhile."""
+        ahead = _PICTURES_AHEAD[self._options.renderer]
+        making: deque[Future[NDArray[np.uint8]]] = deque()
+        with ThreadPoolExecutor(max(ahead, 1)) as pool:
+            for number in range(first, end):
+                camera = self._advance(number)
+                making.append(pool.submit(self._picture, number, self._world.scene, camera))
+                while len(making) > ahead:
+                    yield making.popleft().result()
+            for picture in making:
+                yield picture.result()
+
+    def _advance(self, number: int) -> Camera:
+        """Run the world to the time of a picture; return the camera for it."""
         world, rate = self._world, self._options.frames_per_second
-        for number in range(first, end):
-            due = self._progress.start_tick + round(number / rate / world.dt)
-            while world.tick < due:
-                world.step()
-                self._progress.sounds.extend(world.sounds)
-            camera, cut = self._operator.camera(number / rate, 1 / rate)
-            pose = (number / rate, tuple(camera.position), tuple(camera.rotation), cut)
-            self._progress.poses.append(pose)
-            picture = self._renderer.render(world.scene, camera)
-            if self._frames is not None:
-                path = self._frames / f"frame-{number + 1:05}.png"
-                with written_whole(path) as temporary:
-                    temporary.write_bytes(_engine.encode_png(picture))
-            yield picture
+        due = self._progress.start_tick + round(number / rate / world.dt)
+        while world.tick < due:
+            world.step()
+            self._progress.sounds.extend(world.sounds)
+        camera, cut = self._operator.camera(number / rate, 1 / rate)
+        pose = (number / rate, tuple(camera.position), tuple(camera.rotation), cut)
+        self._progress.poses.append(pose)
+        return camera
+
+    def _picture(self, number: int, scene: Scene, camera: Camera) -> NDArray[np.uint8]:
+        picture = self._renderer.render(scene, camera)
+        if self._frames is not None:
+            path = self._frames / f"frame-{number + 1:05}.png"
+            with written_whole(path) as temporary:
+                temporary.write_bytes(_engine.encode_png(picture))
+        return picture
 
     def _join(self, output: Path) -> None:
         assert self._encoder is not None
