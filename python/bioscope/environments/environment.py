@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from bioscope import _engine
+from bioscope.errors import InvalidValueError
 from bioscope.lsystem.lsystem import LSystem, ModuleString
 
 if TYPE_CHECKING:
@@ -32,6 +33,8 @@ class Environment:
     """
 
     _inner: _engine.Environment | None = None
+    _asked: dict[str, Any] | None = None
+    """What the engine makes it from, where it is one of the engine's: name, settings, map."""
 
     def exchange(self, step: int, messages: dict[str, NDArray[Any]]) -> NDArray[np.float32] | None:
         """Answer the messages of one string, in its order.
@@ -51,6 +54,20 @@ class Environment:
             everything for None.
         """
         raise NotImplementedError(f"{type(self).__name__} does not define exchange")
+
+    def asked(self) -> dict[str, Any]:
+        """Return what a growing stand in a world makes its own one from.
+
+        Raises
+        ------
+        InvalidValueError
+            If it is not one of the engine's, which alone can be saved with a world.
+        """
+        if self._asked is None:
+            raise InvalidValueError(
+                f"{type(self).__name__}: plants of a world live in environments of the engine"
+            )
+        return self._asked
 
     @property
     def engine(self) -> _engine.Environment:
@@ -92,7 +109,16 @@ class BuiltIn(Environment):
 
     def __init__(self, name: str, settings: dict[str, object], **picture: Any) -> None:
         entries = [(key, _told(value)) for key, value in settings.items() if value is not None]
+        self._make(name, entries, **picture)
+
+    def _make(self, name: str, entries: list[tuple[str, str]], **picture: Any) -> None:
         self._inner = _engine.Environment.built_in(name, entries, **picture)
+        self._asked = {"name": name, "settings": entries}
+        if "map" in picture:
+            rows, columns = picture["map"].shape
+            light = np.clip(np.nan_to_num(picture["map"]), 0.0, 1.0).ravel().tolist()
+            corners = {"low": picture["low"], "size": picture["size"]}
+            self._asked["map"] = {"cells": (columns, rows), "light": light, **corners}
 
 
 def _told(value: object) -> str:

@@ -109,7 +109,7 @@ class SoilWater(BuiltIn):
         settings += [("obstacle", box) for box in obstacles]
         settings += [("source", box) for box in sources]
         entries = [(name, _numbers(value)) for name, value in settings]
-        self._inner = _engine.Environment.built_in("soil_water", entries)
+        self._make("soil_water", entries)
 
 
 class Collision(BuiltIn):

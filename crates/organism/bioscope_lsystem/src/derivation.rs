@@ -13,6 +13,7 @@ mod expansion;
 mod options;
 mod parallel;
 mod pass;
+mod progress;
 mod timed;
 
 use std::{
@@ -23,6 +24,7 @@ use std::{
 pub use error::{DerivationError, Limits};
 pub use options::DerivationOptions;
 use pass::{Layer, Made, Task};
+pub use progress::{Placed, Progress};
 
 use crate::{
     Alphabet, LSystem, ModuleString,

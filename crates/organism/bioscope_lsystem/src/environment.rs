@@ -12,6 +12,7 @@
 mod cells;
 mod collision;
 mod guides;
+mod letters;
 mod patch_light;
 mod pipe;
 mod registry;
@@ -25,6 +26,7 @@ use bioscope_core::Vec3;
 
 pub use collision::{Collision, Competition};
 pub use guides::{Obstacles, Pole, Pruning, Shape};
+pub use letters::{Letter, Mailbox};
 pub use patch_light::{LightMap, PatchLight};
 pub use pipe::Pipe;
 pub use registry::{built_in, environment_names, read_environment};
@@ -119,6 +121,17 @@ pub trait Environment: Send {
         requests: &[Request],
         replies: &mut [Reply],
     ) -> Result<(), EnvironmentError>;
+
+    /// What it remembers from one exchange to the next, for saved worlds; nothing where every
+    /// exchange begins anew.
+    fn memory(&self) -> Vec<u8> {
+        Vec::new()
+    }
+
+    /// Goes back to what [`memory`](Self::memory) gave.
+    fn recall(&mut self, _memory: &[u8]) -> bioscope_core::Result<()> {
+        Ok(())
+    }
 }
 
 /// A turtle's heading, left and up, for tests: up as near as possible to +Z.

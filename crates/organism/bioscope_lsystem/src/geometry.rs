@@ -10,6 +10,7 @@ mod layout;
 mod palette;
 mod patches;
 mod skeleton;
+mod unfolding;
 
 use std::collections::BTreeMap;
 
@@ -17,7 +18,8 @@ use bioscope_core::{Result, Vec3, math};
 use bioscope_geometry::Mesh;
 
 pub use palette::Palette;
-pub use skeleton::{PlantShape, SkeletonOptions};
+pub use skeleton::{Held, PlantShape, SkeletonOptions};
+pub use unfolding::Young;
 
 use crate::interpretation::Contour;
 use crate::{Interpretation, Tessellation, files::ContourVertex};
@@ -59,6 +61,15 @@ impl Interpretation {
     /// The plant as one mesh with joints along its main axes.
     pub fn shape(&self, mesh: &MeshOptions, skeleton: &SkeletonOptions) -> Result<PlantShape> {
         skeleton::shape(self, mesh, skeleton)
+    }
+
+    /// Likewise, but with the predefined surfaces (leaves) apart, so that they can be drawn as instances.
+    pub fn shape_and_leaves(
+        self,
+        mesh: &MeshOptions,
+        skeleton: &SkeletonOptions,
+    ) -> Result<(PlantShape, Vec<Held>)> {
+        skeleton::shape_and_leaves(self, mesh, skeleton)
     }
 }
 

@@ -23,12 +23,13 @@ mod source;
 mod string;
 mod turtle;
 
-pub use derivation::{Derivation, DerivationError, DerivationOptions, Limits};
+pub use derivation::{Derivation, DerivationError, DerivationOptions, Limits, Placed, Progress};
 pub use diagnostic::{Diagnostic, Diagnostics, Place};
 pub use environment::{
     Collision, Competition, Density, DensityVoxels, Environment, EnvironmentError, Following,
-    LeafBalls, LightMap, Obstacles, PatchLight, Pipe, Pole, Pruning, Reply, Request, Settings,
-    ShadowVoxels, Shape, SkyLight, SoilWater, built_in, environment_names, read_environment,
+    LeafBalls, Letter, LightMap, Mailbox, Obstacles, PatchLight, Pipe, Pole, Pruning, Reply,
+    Request, Settings, ShadowVoxels, Shape, SkyLight, SoilWater, built_in, environment_names,
+    read_environment,
 };
 pub use files::{
     Animation, ContourShape, ContourVertex, Curve, EnvironmentFile, Function, FunctionTable,
@@ -36,7 +37,7 @@ pub use files::{
     read_color_map, read_materials,
 };
 pub use functions::Functions;
-pub use geometry::{MeshOptions, Palette, PlantShape, SkeletonOptions};
+pub use geometry::{Held, MeshOptions, Palette, PlantShape, SkeletonOptions, Young};
 pub use interpretation::{
     Anchor, Axis, Ball, Basis, Contour, Disc, Interpretation, Label, Patch, Polygon, Segment,
     Surface,

@@ -466,6 +466,30 @@ impl Machine {
         self.random = memory.random.clone();
     }
 
+    /// The variables of the model, without the zeros at their end.
+    pub fn variables(&self) -> Vec<f64> {
+        let all = &self.registers[GLOBALS..CONSTANTS];
+        let used = all.iter().rposition(|value| value.to_bits() != 0).map_or(0, |last| last + 1);
+        all[..used].to_vec()
+    }
+
+    /// Sets the variables to what [`Self::variables`] gave; false if these cannot be they.
+    pub fn set_variables(&mut self, variables: &[f64], arrays: &[Vec<f64>]) -> bool {
+        let own = self.arrays.iter().map(Vec::len);
+        let fits = variables.len() <= GLOBAL_LIMIT && arrays.iter().map(Vec::len).eq(own);
+        if fits {
+            self.registers[GLOBALS..GLOBALS + variables.len()].copy_from_slice(variables);
+            self.registers[GLOBALS + variables.len()..CONSTANTS].fill(0.0);
+            self.arrays.clone_from_slice(arrays);
+        }
+        fits
+    }
+
+    /// The values of the model's arrays.
+    pub fn arrays(&self) -> &[Vec<f64>] {
+        &self.arrays
+    }
+
     /// Begins a step.
     pub fn begin_step(&mut self, step: u64) {
         self.registers[STEP as usize] = step as f64;

@@ -7,7 +7,7 @@
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
-use bioscope_core::{Event, Id};
+use bioscope_core::{Event, Id, Value, Vec3};
 use bioscope_world::Moment;
 use serde::{Deserialize, Serialize};
 
@@ -48,6 +48,18 @@ pub(crate) fn bitten(events: &[Event]) -> BTreeMap<Id, Id> {
         }
     }
     biters
+}
+
+/// The ball (`position`, `radius`, metres) that an event speaks of.
+pub(crate) fn ball(event: &Event) -> Option<(Vec3, f32)> {
+    let (Value::Numbers(place), Value::Number(radius)) =
+        (event.data.get("position")?, event.data.get("radius")?)
+    else {
+        return None;
+    };
+    let [x, y, z] = place[..] else { return None };
+    let (center, radius) = (Vec3::new(x as f32, y as f32, z as f32), *radius as f32);
+    (center.is_finite() && radius.is_finite() && radius > 0.0).then_some((center, radius))
 }
 
 #[cfg(test)]

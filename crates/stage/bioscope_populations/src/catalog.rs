@@ -14,9 +14,10 @@ use crate::drifters::{Bubbles, Plankton};
 use crate::fish::{self, BodyKind, FishSchool, FishSchoolOptions, FishSpecies, MindRequest};
 use crate::plants::Plants;
 use crate::scenery::{Corals, Ground, Props, Rocks};
+use crate::stand::Stand;
 
 /// The kinds that [`population`] makes.
-pub const KINDS: [&str; 9] = [
+pub const KINDS: [&str; 10] = [
     "bubbles",
     "corals",
     "fish_school",
@@ -26,6 +27,7 @@ pub const KINDS: [&str; 9] = [
     "props",
     "roaming_fish",
     "rocks",
+    "stand",
 ];
 
 /// Most fishes with minds of their own in one population.
@@ -48,6 +50,7 @@ pub fn population(
         "props" => Box::new(Props::new(read(kind, options)?)?),
         "roaming_fish" => Box::new(fish_with_minds(options, &|| None, Arc::default())?),
         "rocks" => Box::new(Rocks::new(read(kind, options)?)?),
+        "stand" => Box::new(Stand::new(read(kind, options)?)?),
         _ => {
             let known = KINDS.map(str::to_owned).to_vec();
             return Err(Error::Unknown { kind: "population", name: kind.to_owned(), known });

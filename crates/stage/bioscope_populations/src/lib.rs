@@ -9,6 +9,7 @@ mod names;
 pub mod placement;
 pub mod plants;
 pub mod scenery;
+pub mod stand;
 
 use std::sync::Arc;
 
@@ -21,6 +22,7 @@ pub fn registry() -> Registry {
     add_drifters(&mut registry);
     registry.add_population("fish_school", |bytes| boxed(fish::FishSchool::from_saved(bytes)));
     registry.add_population("plants", |bytes| boxed(plants::Plants::from_saved(bytes)));
+    registry.add_population("stand", |bytes| boxed(stand::Stand::from_saved(bytes)));
     add_scenery(&mut registry);
     registry
 }

@@ -1,6 +1,7 @@
 //! Space: branches that stop where leaves of others already are, and plants that crowd each other out.
 
-use bioscope_core::Vec3;
+use bioscope_core::{Vec3, state};
+use serde::{Deserialize, Serialize};
 
 use super::cells::Cells;
 use super::settings::{Settings, bounded};
@@ -21,7 +22,7 @@ pub struct Collision {
     clusters: Vec<Cluster>,
 }
 
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 struct Cluster {
     center: Vec3,
     vigor: f32,
@@ -117,6 +118,15 @@ impl Environment for Collision {
                 *answer = if stopped { 0.0 } else { 1.0 };
             }
         }
+        Ok(())
+    }
+
+    fn memory(&self) -> Vec<u8> {
+        state::to_bytes(&self.clusters)
+    }
+
+    fn recall(&mut self, memory: &[u8]) -> bioscope_core::Result<()> {
+        self.clusters = state::from_bytes("leaf discs", memory)?;
         Ok(())
     }
 }

@@ -2,6 +2,9 @@
 
 use std::collections::BTreeMap;
 
+use bioscope_core::state;
+use serde::{Deserialize, Serialize};
+
 use super::settings::{Settings, bounded};
 use super::{Environment, EnvironmentError, Reply, Request};
 
@@ -35,7 +38,7 @@ pub struct PatchLight {
 }
 
 /// Light by place.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LightMap {
     /// Lowest corner.
     pub low: [f32; 2],
@@ -47,7 +50,7 @@ pub struct LightMap {
     pub light: Vec<f32>,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 struct Leaf {
     place: [f32; 2],
     radius: f32,
@@ -270,6 +273,16 @@ impl Environment for PatchLight {
                 reply.parameters[answer] = self.light(place);
             }
         }
+        Ok(())
+    }
+
+    fn memory(&self) -> Vec<u8> {
+        state::to_bytes(&(&self.leaves, self.count, self.cell, self.largest))
+    }
+
+    fn recall(&mut self, memory: &[u8]) -> bioscope_core::Result<()> {
+        (self.leaves, self.count, self.cell, self.largest) =
+            state::from_bytes("leaves over the ground", memory)?;
         Ok(())
     }
 }

@@ -1,6 +1,6 @@
 //! Water in the soil, which roots drink and which spreads.
 
-use bioscope_core::Vec3;
+use bioscope_core::{Error, Vec3, state};
 use glam::DVec3;
 
 use super::settings::{Settings, bounded};
@@ -345,6 +345,20 @@ impl Environment for SoilWater {
             self.drink(request, reply);
         }
         self.flow();
+        Ok(())
+    }
+
+    fn memory(&self) -> Vec<u8> {
+        state::to_bytes(&self.water)
+    }
+
+    fn recall(&mut self, memory: &[u8]) -> bioscope_core::Result<()> {
+        let water: Vec<f64> = state::from_bytes("water in the soil", memory)?;
+        if water.len() != self.water.len() {
+            let what = format!("{} cells, not {}", water.len(), self.water.len());
+            return Err(Error::format("water in the soil", what));
+        }
+        self.water = water;
         Ok(())
     }
 }

@@ -9,7 +9,7 @@ use bioscope_core::{Error, Quat, Result, Vec3};
 use bioscope_geometry::{Joint, Mesh, Skin, Transform};
 
 use super::{Binding, Builder, Layout, MeshOptions};
-use crate::Interpretation;
+use crate::{Interpretation, Surface};
 
 /// How a skeleton is laid out.
 #[derive(Clone, Debug, PartialEq)]
@@ -90,11 +90,50 @@ struct Skeleton {
     paths: Vec<f32>,
 }
 
+/// A predefined surface of a plant and what it moves with.
+#[derive(Clone, Debug)]
+pub struct Held {
+    /// The surface.
+    pub surface: Surface,
+    /// The joints that move it.
+    pub joints: [u8; 4],
+    /// Their weights, sum 1.
+    pub weights: [f32; 4],
+}
+
+/// The plant without its surfaces, and these apart.
+pub(super) fn shape_and_leaves(
+    mut interpretation: Interpretation,
+    mesh: &MeshOptions,
+    options: &SkeletonOptions,
+) -> Result<(PlantShape, Vec<Held>)> {
+    let surfaces = std::mem::take(&mut interpretation.surfaces);
+    let (shape, skeleton, layout) = bent(&interpretation, mesh, options)?;
+    let held = |surface: Surface| {
+        let binding = match surface.anchor {
+            Some(anchor) => Binding { axis: Some(anchor.axis), path: layout.path(anchor) },
+            None => Binding { axis: None, path: 0.0 },
+        };
+        let (joints, weights) = skeleton.weights(&binding);
+        Held { surface, joints, weights }
+    };
+    let leaves = surfaces.into_iter().map(held).collect();
+    Ok((shape, leaves))
+}
+
 pub(super) fn shape(
     interpretation: &Interpretation,
     mesh: &MeshOptions,
     options: &SkeletonOptions,
 ) -> Result<PlantShape> {
+    Ok(bent(interpretation, mesh, options)?.0)
+}
+
+fn bent(
+    interpretation: &Interpretation,
+    mesh: &MeshOptions,
+    options: &SkeletonOptions,
+) -> Result<(PlantShape, Skeleton, Layout)> {
     if !(1..=255).contains(&options.joints) {
         return Err(Error::value("joints", options.joints, "1 to 255"));
     }
@@ -105,9 +144,9 @@ pub(super) fn shape(
     let (indices, weights) = bound.unzip();
     let length = bindings.iter().map(|binding| binding.path).fold(0.0, f32::max);
     let height = if mesh.positions.is_empty() { 0.0 } else { mesh.bounds().1.y.max(0.0) };
-    let Skeleton { joints, flexibility, paths, .. } = skeleton;
-    mesh.skin = Some(Skin { joints, indices, weights });
-    Ok(PlantShape { mesh, flexibility, paths, height, length })
+    mesh.skin = Some(Skin { joints: skeleton.joints.clone(), indices, weights });
+    let (flexibility, paths) = (skeleton.flexibility.clone(), skeleton.paths.clone());
+    Ok((PlantShape { mesh, flexibility, paths, height, length }, skeleton, layout))
 }
 
 impl Skeleton {

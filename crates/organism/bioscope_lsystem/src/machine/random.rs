@@ -139,6 +139,21 @@ impl Randomness {
         }
     }
 
+    /// How far `srand` of the model has moved counters of our own.
+    pub fn offset(&self) -> u64 {
+        match &self.0 {
+            Source::Reference(_) => 0,
+            Source::Counter { offset, .. } => *offset,
+        }
+    }
+
+    /// Moves counters of our own so far.
+    pub fn set_offset(&mut self, moved: u64) {
+        if let Source::Counter { offset, .. } = &mut self.0 {
+            *offset = moved;
+        }
+    }
+
     /// Begins the numbers anew.
     pub fn seed(&mut self, value: f64) {
         match &mut self.0 {

@@ -16,10 +16,11 @@
 
 mod options;
 mod population;
-mod shapes;
+pub(crate) mod shapes;
 mod sway;
 #[cfg(test)]
 mod tests;
 
 pub use options::{PlantsOptions, PlantsParameters};
 pub use population::Plants;
+pub(crate) use sway::{Stance, Sway};

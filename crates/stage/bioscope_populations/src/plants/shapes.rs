@@ -36,7 +36,7 @@ pub(super) struct Shape {
 }
 
 /// How one joint takes part in the sway.
-pub(super) struct Bend {
+pub(crate) struct Bend {
     /// Number of the parent joint, none for the root.
     pub parent: Option<usize>,
     /// Place at rest relative to the parent, mesh space, metres.
@@ -100,21 +100,28 @@ impl Shape {
     }
 
     fn bendable(grown: PlantShape) -> Self {
+        let joints = Bend::of(&grown);
+        let PlantShape { mesh, height, length, .. } = grown;
+        Self { mesh: Arc::new(mesh.with_levels()), joints, height, length }
+    }
+}
+
+impl Bend {
+    /// How the joints of a plant take part in its sway.
+    pub(crate) fn of(grown: &PlantShape) -> Vec<Self> {
         let joints = grown.mesh.skin.as_ref().map_or(&[][..], |skin| &skin.joints);
         let bend = |(number, (joint, &flexibility)): (usize, (&Joint, &f32))| {
             let parent = joint.parent.map(usize::from);
             let origin = parent.map_or(Vec3::ZERO, |one| joints[one].rest.position);
             // The golden angle keeps any two joints out of step.
             let phase = number as f32 * 2.399_963;
-            Bend {
+            Self {
                 parent,
                 offset: joint.rest.position - origin,
                 flexibility: flexibility.clamp(0.0, 1.0),
                 phase: [math::cos(phase), math::sin(phase)],
             }
         };
-        let joints = joints.iter().zip(&grown.flexibility).enumerate().map(bend).collect();
-        let PlantShape { mesh, height, length, .. } = grown;
-        Self { mesh: Arc::new(mesh.with_levels()), joints, height, length }
+        joints.iter().zip(&grown.flexibility).enumerate().map(bend).collect()
     }
 }

@@ -17,7 +17,7 @@ const FLUTTER_RATE: f32 = 1.9;
 /// The bending of one plant: a chain of damped springs. The first follows the drag of the flow, each
 /// other one the spring below it, so that the tip comes late.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub(super) struct Sway {
+pub(crate) struct Sway {
     links: [Link; LINKS],
     /// Speed of the flow as flutter feels it, metres per second.
     speed: f32,
@@ -32,7 +32,7 @@ struct Link {
 
 impl Sway {
     /// Goes on by `dt` seconds in a steady flow (metres per second); `length` is the plant's, metres.
-    pub(super) fn advance(&mut self, flow: Vec3, length: f32, dt: f32, p: &PlantsParameters) {
+    pub(crate) fn advance(&mut self, flow: Vec3, length: f32, dt: f32, p: &PlantsParameters) {
         let level = Vec2::new(flow.x, flow.z);
         let speed = math::sqrt(level.length_squared());
         // Drag grows with the square of the speed, but a plant that lies down offers less of itself.
@@ -56,7 +56,7 @@ impl Sway {
     }
 
     /// Lean of the tip, radians.
-    pub(super) fn tip(&self, p: &PlantsParameters) -> Vec2 {
+    pub(crate) fn tip(&self, p: &PlantsParameters) -> Vec2 {
         self.lean(1.0) * (p.flexibility * 0.5 * math::PI)
     }
 }
@@ -88,7 +88,7 @@ impl Link {
 }
 
 /// What the poses of one plant depend on beside its sway.
-pub(super) struct Stance {
+pub(crate) struct Stance {
     /// Direction in which the plant was planted, radians about the vertical.
     pub yaw: f32,
     /// Its own place in the rhythm, radians.
@@ -101,7 +101,7 @@ pub(super) struct Stance {
 
 impl Sway {
     /// Writes the pose of every joint, in mesh space.
-    pub(super) fn pose(
+    pub(crate) fn pose(
         &self,
         joints: &[Bend],
         stance: &Stance,

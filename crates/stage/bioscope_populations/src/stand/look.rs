@@ -1,0 +1,137 @@
+//! What is seen of one plant: a bending mesh of its wood, and where its leaves are on it.
+
+use std::sync::Arc;
+
+use bioscope_core::{Mat3, Quat, Result, Vec3, math};
+use bioscope_geometry::{Mesh, Transform};
+use bioscope_lsystem::{
+    Frame, Held, Interpretation, MeshOptions, Palette, Shapes, SkeletonOptions, Surface,
+};
+
+use super::model::Model;
+use super::plant::Plant;
+use crate::plants::shapes::Bend;
+
+/// Steps by which the proportions of leaves that share a mesh may differ.
+const PROPORTIONS: f32 = 16.0;
+/// Leaves smaller than this are buds that are not drawn, units of the model.
+const SMALLEST: f32 = 1e-4;
+
+/// A shape of leaves that is drawn once: name, color and texture, width and thickness by length.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct Form {
+    pub name: char,
+    pub color: i32,
+    pub texture: u16,
+    pub proportions: [i16; 2],
+}
+
+/// A leaf of a plant.
+#[derive(Clone, Debug)]
+pub(super) struct Leaf {
+    pub form: Form,
+    /// Where it is at rest, in the plant's own space.
+    pub place: Transform,
+    /// What it moves with.
+    pub joints: [u8; 4],
+    pub weights: [f32; 4],
+}
+
+/// What is seen of a plant.
+pub(super) struct Look {
+    /// The wood.
+    pub mesh: Arc<Mesh>,
+    pub joints: Vec<Bend>,
+    /// Where the joints rest, in the plant's own space.
+    pub rests: Vec<Vec3>,
+    pub leaves: Vec<Leaf>,
+    /// Height above its foot, units of the model.
+    pub height: f32,
+    /// Longest way from its foot to a tip, units of the model.
+    pub length: f32,
+    /// How many segments it has.
+    pub segments: usize,
+}
+
+impl Look {
+    /// The look of a plant; `share` of the last step has gone by.
+    pub fn of(plant: &Plant, model: &Model, joints: u32, share: f32) -> Result<Self> {
+        let mut drawn = plant.drawn(model)?;
+        if !plant.young.is_empty() {
+            drawn.unfold(&plant.young, math::smoothstep(-0.05, 1.0, share));
+        }
+        let segments = drawn.segments.len();
+        let skeleton = SkeletonOptions { joints, ..SkeletonOptions::default() };
+        let (shape, held) = drawn.shape_and_leaves(&model.meshing, &skeleton)?;
+        let own = shape.mesh.skin.as_ref().map_or(&[][..], |skin| &skin.joints);
+        let rests = own.iter().map(|joint| joint.rest.position).collect();
+        let joints = Bend::of(&shape);
+        let leaves = held.into_iter().filter_map(leaf).collect();
+        let (height, length) = (shape.height, shape.length);
+        Ok(Self { mesh: Arc::new(shape.mesh), joints, rests, leaves, height, length, segments })
+    }
+
+    /// Whether there is nothing to be seen.
+    pub fn is_empty(&self) -> bool {
+        self.mesh.triangles.is_empty() && self.leaves.is_empty()
+    }
+
+    /// Where a leaf is when the joints have these poses; none if they rest.
+    pub fn leaf(&self, leaf: &Leaf, poses: &[Transform]) -> Transform {
+        if poses.is_empty() {
+            return leaf.place;
+        }
+        let mut position = Vec3::ZERO;
+        let mut turn = (0.0, Quat::IDENTITY);
+        for (&joint, &weight) in leaf.joints.iter().zip(&leaf.weights) {
+            if weight > 0.0 {
+                let pose = &poses[joint as usize];
+                let rest = self.rests[joint as usize];
+                position += pose.point(leaf.place.position - rest) * weight;
+                if weight > turn.0 {
+                    turn = (weight, pose.rotation());
+                }
+            }
+        }
+        Transform::new(position, turn.1 * leaf.place.rotation(), leaf.place.scale)
+    }
+}
+
+fn leaf(held: Held) -> Option<Leaf> {
+    let Held { surface, joints, weights } = held;
+    let size = surface.scale.y;
+    if size < SMALLEST || !surface.scale.is_finite() {
+        return None;
+    }
+    let proportion = |part: f32| (part / size * PROPORTIONS).round().clamp(-3e4, 3e4) as i16;
+    let form = Form {
+        name: surface.name,
+        color: surface.color,
+        texture: surface.texture,
+        proportions: [proportion(surface.scale.x), proportion(surface.scale.z)],
+    };
+    let Frame { heading, left, up } = surface.frame;
+    let rotation = Quat::from_mat3(&Mat3::from_cols(-left, heading, up)).normalize();
+    Some(Leaf { form, place: Transform::new(surface.position, rotation, size), joints, weights })
+}
+
+impl Form {
+    /// The mesh of a leaf of this form of length 1 at the start of a turtle.
+    pub fn mesh(&self, shapes: &Arc<Shapes>, palette: &Palette) -> Mesh {
+        let [width, thickness] = self.proportions.map(|part| f32::from(part) / PROPORTIONS);
+        let frame = Frame { heading: Vec3::Y, left: Vec3::NEG_X, up: Vec3::Z };
+        let surface = Surface {
+            name: self.name,
+            position: Vec3::ZERO,
+            frame,
+            scale: Vec3::new(width, 1.0, thickness),
+            color: self.color,
+            texture: self.texture,
+            anchor: None,
+        };
+        let (surfaces, shapes) = (vec![surface], shapes.clone());
+        let drawn = Interpretation { surfaces, shapes, ..Interpretation::default() };
+        let meshing = MeshOptions { palette: palette.clone(), ..MeshOptions::default() };
+        drawn.mesh(&meshing).with_levels()
+    }
+}
