@@ -92,3 +92,9 @@ def meadow(
 def daylight(world: bio.World, *, elevation: float = 34.0, azimuth: float = 62.0) -> None:
     """Let a low sun shine, so that plants throw long shadows."""
     world.environment.set(sun_elevation=elevation, sun_azimuth=azimuth, sunlight=1.15)
+
+
+def lawn(world: bio.World, soil: tuple[float, float, float] = (0.13, 0.23, 0.06)) -> None:
+    """Cover the ground with a mown lawn, with a light wind over it."""
+    world.add(bio.Ground(rock_slope=70.0, rock_height=1e4, sand_color=soil))
+    world.environment.add(bio.Current((1.0, 0.0, 0.4), speed=1.0, surge=0.4, turbulence=0.3), "wind")
