@@ -7,7 +7,7 @@ import numpy as np
 import bioscope as bio
 from bioscope.populations.place import Disk, Habitat
 
-_GRASS = 'meadow_grass'
+_GRASS = "meadow_grass"
 
 
 def rolling(world: bio.World, extent: float, relief: float, flat: float = 0.0) -> None:
@@ -78,7 +78,7 @@ def meadow(
             tufts,
             habitat=grass,
             species="grass",
-            size=(0.6, 1.5),
+            size=(0.9, 2.0),
             variants=10,
             room=0.05,
             variety=0.35,
@@ -97,4 +97,6 @@ def daylight(world: bio.World, *, elevation: float = 34.0, azimuth: float = 62.0
 def lawn(world: bio.World, soil: tuple[float, float, float] = (0.13, 0.23, 0.06)) -> None:
     """Cover the ground with a mown lawn, with a light wind over it."""
     world.add(bio.Ground(rock_slope=70.0, rock_height=1e4, sand_color=soil))
-    world.environment.add(bio.Current((1.0, 0.0, 0.4), speed=1.0, surge=0.4, turbulence=0.3), "wind")
+    world.environment.add(
+        bio.Current((1.0, 0.0, 0.4), speed=1.0, surge=0.4, turbulence=0.3), "wind"
+    )

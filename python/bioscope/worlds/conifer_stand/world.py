@@ -1,7 +1,7 @@
 """Nine young conifers close their ranks, and lose their lower branches in the shade.
 
 Watch for: tiers of branches that are widest at the foot as long as there is light; branches that
-stop where they meet the neighbor's; the tree in the middle, bare first and highest, and the corners,
+stop where they meet the neighbor's; the tree in the middle, bare first, and the corners,
 green to the ground on their outer sides. A year lasts two seconds.
 
 Source: R. Měch and P. Prusinkiewicz, "Visual models of plants interacting with their environment",
