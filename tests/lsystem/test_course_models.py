@@ -347,3 +347,44 @@ def test_the_flux_is_shared_out_without_loss():
         parts = modules("borchert_honda", 61 * cycle)
         seen = Counter(symbol for symbol, _ in parts)
         assert (seen["I"], seen["A"]) == (internodes, terminals)
+        # What leaves the root in a cycle arrives at the tips.
+        before = gallery.read("borchert_honda").derive(61 * cycle - 1).string()
+        assert sum(fluxes(before)) == pytest.approx(17 * 2 ** ((cycle - 1) * 0.89), rel=1e-5)
+
+
+def fluxes(text: str) -> list[float]:
+    """Return the flux that reaches each tip."""
+    return [float(one) for one in re.findall(r"I\([^,]+,[^,]+,([^,]+),\d\)FA", text)]
+
+
+def lateral(text: str) -> tuple[int, int]:
+    """Return where the first bracket opens, and where it closes."""
+    start, depth = text.index("["), 0
+    for place in range(start, len(text)):
+        depth += {"[": 1, "]": -1}.get(text[place], 0)
+        if depth == 0:
+            return start, place
+    raise AssertionError("a bracket is not closed")
+
+
+@pytest.mark.capability("PL-316")
+def test_a_pruned_tree_makes_up_for_its_loss():
+    source = gallery.text("borchert_honda")
+    grown = gallery.read("borchert_honda").derive(61 * 6).string()
+    start, _ = lateral(grown)
+    cut = grown[: start + 1] + "%" + grown[start + 1 :]
+    runs = {}
+    for name, axiom in (("whole", grown), ("cut", cut)):
+        system = bio.LSystem(re.sub(r"(?m)^axiom: .*$", "axiom: " + axiom, source))
+        runs[name] = [system.derive(steps).string() for steps in (60, 61 * 3)]
+    # The branches that stay, in the whole tree and in the pruned one.
+    kept = []
+    for text in runs["whole"]:
+        start, end = lateral(text)
+        kept.append(text[: start + 1] + text[end:])
+    whole, pruned = fluxes(kept[0]), fluxes(runs["cut"][0])
+    assert sum(pruned) == pytest.approx(sum(fluxes(runs["whole"][0])), rel=1e-5)
+    assert len(whole) == len(pruned)
+    assert np.all(np.array(pruned) >= np.array(whole))
+    assert sum(pruned) > 1.2 * sum(whole)
+    assert runs["cut"][1].count("I(") > kept[1].count("I(")
