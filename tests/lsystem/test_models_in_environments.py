@@ -118,13 +118,18 @@ def test_roots_have_the_reference_size_and_stop_in_dry_soil():
     rich = bio.environments.SoilWater(amount=1e6)
     grown = bio.environments.derive(roots, environment=rich).string()
     assert [grown.count(one) for one in ("F(", "A(", "B(")] == [2472, 32, 315]
-    # Rootlets of order 1 may become 5 long; where it is dry they stop before.
-    poor = bio.environments.derive(roots, environment=bio.environments.SoilWater(amount=0.3))
-    assert 200 < poor.string().count("F(") < 2472 * 1.2
-    ends = bio.Turtle().interpret(poor).segments
-    reach = np.linalg.norm(ends.end - ends.start, axis=1).sum()
-    wet = bio.Turtle().interpret(bio.environments.derive(roots, environment=rich)).segments
-    assert reach < 0.8 * np.linalg.norm(wet.end - wet.start, axis=1).sum()
+    # Rootlets, by their order: where it is dry they stop before their full length.
+    lengths = []
+    for amount in (0.05, 0.3, 1.0, 1e6):
+        soil = bio.environments.SoilWater((200, 200), amount=amount)
+        string = bio.environments.derive(roots, environment=soil)
+        drawn = bio.Turtle().interpret(string).segments
+        pieces = np.linalg.norm(drawn.end - drawn.start, axis=1)
+        lengths.append([pieces[drawn.color == order].sum() for order in (2, 3)])
+        if amount == 0.05:
+            assert string.string().count("A(") == 0
+    assert lengths == sorted(lengths)
+    assert lengths[1][0] < 0.1 * lengths[3][0]
 
 
 @pytest.mark.capability("PL-430")

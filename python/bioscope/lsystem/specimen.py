@@ -24,6 +24,8 @@ SUFFIXES = (".glb", ".obj", ".usdc", ".usda", ".png")
 VIEW_ANGLE = math.radians(30)
 VIEW_LIMITS = (16, 4096)
 FLOOR = (0.50, 0.48, 0.44)
+HAZELESS = 20.0
+"""Size in metres from which haze would hide what is far away."""
 LIGHT: dict[str, float] = {}
 
 
@@ -75,12 +77,13 @@ def palette_beside(path: Path) -> list[tuple[float, float, float]] | None:
 
 
 class Specimen(Population):
-    """One mesh that stands still."""
+    """One mesh that stands still, in the size `scale`."""
 
     transient = ("mesh", "material")
 
-    def __init__(self, mesh: Mesh, title: str) -> None:
+    def __init__(self, mesh: Mesh, title: str, scale: float = 1.0) -> None:
         self.title = title
+        self.scale = scale
         self.mesh = mesh
         self.material = _engine.Material(title, color=(1.0, 1.0, 1.0), two_sided=True)
         self.ids = np.empty(0, np.uint32)
@@ -96,7 +99,10 @@ class Specimen(Population):
     def publish(self, scene: Publication) -> None:
         """Stand at the origin."""
         place = np.zeros((len(self.ids), 3), np.float32)
-        scene.instances(self.title, self.mesh, self.material, ids=self.ids, positions=place)
+        scales = np.full(len(self.ids), self.scale, np.float32)
+        scene.instances(
+            self.title, self.mesh, self.material, ids=self.ids, positions=place, scales=scales
+        )
 
 
 def _write_obj(output: Path, mesh: Mesh) -> None:
@@ -123,11 +129,14 @@ def portrait(mesh: Mesh, width: int, height: int, *, full: Mesh | None = None) -
     if not (VIEW_LIMITS[0] <= min(width, height) and max(width, height) <= VIEW_LIMITS[1]):
         raise InvalidValueError(f"{width}x{height}: expected {VIEW_LIMITS[0]} to {VIEW_LIMITS[1]}")
     points = (mesh if full is None else full).positions
+    size = float(np.linalg.norm(np.ptp(points, axis=0)))
+    # Whole fields are shown as models of themselves: haze would hide what is far away.
+    scale = min(1.0, HAZELESS / max(size, 1e-3))
+    points, size = points * np.float32(scale), size * scale
     low, high = points.min(axis=0), points.max(axis=0)
     world = World(seed=1, title="specimen")
     world.environment.set(**LIGHT)
-    world.add(Specimen(mesh, "specimen"))
-    size = float(np.linalg.norm(high - low))
+    world.add(Specimen(mesh, "specimen", scale))
     world.add(Specimen(_floor((low + high) / 2, float(low[1]), size), "floor"))
     camera = _camera(points, width / height)
     return _engine.Rasterizer(picture=True).picture(world.scene, camera, width, height)

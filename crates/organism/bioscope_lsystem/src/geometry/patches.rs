@@ -131,8 +131,8 @@ impl Builder<'_> {
         const RINGS: u32 = 5;
         let left = ball.axis.any_orthonormal_vector();
         let node = |ring: u32| {
-            // From just above the lower pole to just below the upper one.
-            let angle = math::PI * (ring as f32 + 0.35) / (RINGS as f32 - 0.3);
+            // From just above the lower pole to just below the upper one, which the tube rounds off.
+            let angle = math::PI * (ring as f32 + 0.05) / (RINGS as f32 - 0.9);
             let (height, radius) =
                 (-math::cos(angle) * ball.radius, math::sin(angle) * ball.radius);
             Node {
