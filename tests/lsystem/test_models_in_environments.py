@@ -115,7 +115,7 @@ def main_axis(string: bio.ModuleString) -> np.ndarray:
 @pytest.mark.capability("PL-112", "PL-430")
 def test_roots_have_the_reference_size_and_stop_in_dry_soil():
     roots = gallery.read("roots")
-    rich = bio.environments.SoilWater(amount=1e6)
+    rich = bio.environments.SoilWater((200, 200), amount=1e6)
     grown = bio.environments.derive(roots, environment=rich).string()
     assert [grown.count(one) for one in ("F(", "A(", "B(")] == [2472, 32, 315]
     # Rootlets, by their order: where it is dry they stop before their full length.
