@@ -13,7 +13,7 @@ GOOD, FAIR = (-16.0, -16.0, 13.0), (18.0, 18.0, 10.0)
 """Patches I and II of light on the ground: middle and radius."""
 
 
-@pytest.mark.capability("PL-323")
+@pytest.mark.capability("PL-323", "PL-405")
 @pytest.mark.parametrize(("x", "z"), [(1.0, 0.0), (0.8, 0.3), (-0.6, 0.8)])
 def test_a_climber_finds_its_pole_and_winds_round_it(x, z):
     pole = bio.environments.Pole(x=x, z=z, radius=0.3)
@@ -146,7 +146,7 @@ def test_the_main_root_grows_toward_the_water():
     assert np.mean(cosines) > 0.3
 
 
-@pytest.mark.capability("PL-445", "PL-216")
+@pytest.mark.capability("PL-445", "PL-216", "PL-405")
 def test_two_trees_grow_away_from_each_other():
     text = gallery.text("light_tree")
     axiom = re.search(r"(?m)^axiom: (.*)$", text)[1]
