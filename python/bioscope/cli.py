@@ -13,7 +13,7 @@ import click
 
 import bioscope
 from bioscope import worlds
-from bioscope.errors import BioscopeError
+from bioscope.errors import BioscopeError, UnknownNameError
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -213,6 +213,34 @@ def film(
     )
     seed = seed_of_partial(output, frames, made) if seed is None else seed
     film_world(opened(world, seed), output, made, frames=frames, say=say)
+
+
+@command("films", "bioscope films -o films")
+@path_option("-o", "--output", metavar="DIR", required=True, help="Folder for the films.")
+@click.option("--size", metavar="WxH", default="1280x720", help="Pixels.")
+@click.option("--renderer", default="preview", help="preview or path.")
+@click.argument("names", nargs=-1)
+def films(output: Path, size: str, renderer: str, names: tuple[str, ...]) -> None:
+    """Make the films of the artificial fishes, each from its seed by its own shot list.
+
+    NAMES are those to make; all if none. What is there already is not made again.
+    """
+    from bioscope.film import FilmOptions, film_world, parse_size
+
+    seeds = worlds.films()
+    for name in names:
+        if name not in seeds:
+            raise UnknownNameError(f"unknown film '{name}'; known: {', '.join(seeds)}")
+    output.mkdir(parents=True, exist_ok=True)
+    for name in names or seeds:
+        path = output / f"{name}.mp4"
+        if path.exists():
+            say(f"{path} is there")
+            continue
+        made = opened(name, seeds[name])
+        seconds = sum(length for _, length in made.shots)
+        options = FilmOptions(seconds=seconds, size=parse_size(size), renderer=renderer)
+        film_world(made, path, options, say=say)
 
 
 @command("export", "bioscope export reef -o reef.usdc --seconds 4")

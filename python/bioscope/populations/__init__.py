@@ -2,6 +2,7 @@
 
 from bioscope.populations.drifters import Bubbles, Plankton
 from bioscope.populations.fish import FishSchool, RoamingFish
+from bioscope.populations.fishing import FishingLine
 from bioscope.populations.place import Disk, Habitat, Rectangle
 from bioscope.populations.plants import Plants
 from bioscope.populations.scenery import Corals, Ground, Props, Rocks
@@ -11,6 +12,7 @@ __all__ = [
     "Corals",
     "Disk",
     "FishSchool",
+    "FishingLine",
     "Ground",
     "Habitat",
     "Plankton",

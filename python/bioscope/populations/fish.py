@@ -104,6 +104,8 @@ class RoamingFish(Asked):
         their food.
     food
         Species that they smell as food, with a mind of your own; the engine's know their own.
+    variation
+        By how much of its size each differs from the others, 0 to 0.9; a tenth if not given.
     body
         `muscle_swimmer`, moved by muscles that pull springs in water, or `swimmer`, by geometric
         flight; the former with a mind of the engine's, the latter without, if not given.
@@ -124,6 +126,7 @@ class RoamingFish(Asked):
         mind: AnyMind | None = None,
         females: float | None = None,
         food: Sequence[str] = (),
+        variation: float | None = None,
         body: Literal["swimmer", "muscle_swimmer"] | None = None,
         **parameters: float,
     ) -> None:
@@ -135,6 +138,7 @@ class RoamingFish(Asked):
             "home": home,
             "females": females,
             "food": list(food),
+            "variation": variation,
             "body": body,
         }
         _with_mind(self, options, mind, parameters)

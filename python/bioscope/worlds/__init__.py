@@ -24,6 +24,19 @@ def names() -> dict[str, str]:
     return {name: _summary(_FOLDER / name / "world.py") for name in folders}
 
 
+def films() -> dict[str, int]:
+    """Return the ready-made worlds that are made to be filmed, each with the seed of its film.
+
+    Those name it in their module as `FILM_SEED`; their shot list is the whole film.
+    """
+    seeds = {}
+    for name in names():
+        seed = getattr(importlib.import_module(f"bioscope.worlds.{name}.world"), "FILM_SEED", None)
+        if seed is not None:
+            seeds[name] = int(seed)
+    return seeds
+
+
 def _summary(path: Path) -> str:
     """Return the first line of a module's docstring without running it."""
     first = path.read_text(encoding="utf-8").lstrip().splitlines()[0]

@@ -17,6 +17,8 @@ pub const BITTEN: &str = "bitten";
 pub const EATEN: &str = "eaten";
 /// Prey (the event's subject) is gone into its object.
 pub const CAUGHT: &str = "caught";
+/// An animal (the event's subject) hangs on a hook (its object).
+pub const HOOKED: &str = "hooked";
 
 /// One who is gone, and into whom.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]

@@ -12,6 +12,7 @@ use serde::de::DeserializeOwned;
 use crate::animals::{Animal, Animals, AnimalsOptions, Kinds, Place};
 use crate::drifters::{Bubbles, Plankton};
 use crate::fish::{self, BodyKind, FishSchool, FishSchoolOptions, FishSpecies, MindRequest};
+use crate::fishing::FishingLine;
 use crate::plants::Plants;
 use crate::scenery::{Corals, Ground, Props, Rocks};
 use crate::stand::Stand;
@@ -21,6 +22,7 @@ pub const KINDS: [&str; 10] = [
     "bubbles",
     "corals",
     "fish_school",
+    "fishing_line",
     "ground",
     "plankton",
     "plants",
@@ -44,6 +46,7 @@ pub fn population(
         "bubbles" => Box::new(Bubbles::new(read(kind, options)?)?),
         "corals" => Box::new(Corals::new(read(kind, options)?)?),
         "fish_school" => Box::new(FishSchool::new(school(&read(kind, options)?)?)?),
+        "fishing_line" => Box::new(FishingLine::new(read(kind, options)?)?),
         "ground" => Box::new(Ground::new(read(kind, options)?)?),
         "plankton" => Box::new(Plankton::new(read(kind, options)?)?),
         "plants" => Box::new(Plants::new(read(kind, options)?)?),
@@ -120,6 +123,8 @@ struct Roaming {
     /// Species that they smell as food, where they have no such mind, which knows its own.
     #[serde(default)]
     food: Vec<Arc<str>>,
+    /// By how much of its size each differs from the others; a tenth if not given.
+    variation: Option<f32>,
     /// How they are moved; by muscles if they have such a mind, by geometric flight if not.
     body: Option<BodyKind>,
 }
@@ -165,6 +170,8 @@ pub fn fish_with_minds(
         Ok(Animal { may_fail: foreign, ..animal })
     });
     let place = Some(Place { center: asked.center, radius: asked.radius });
-    let settings = AnimalsOptions { place, home: asked.home, ..AnimalsOptions::default() };
+    let usual = AnimalsOptions::default();
+    let variation = asked.variation.unwrap_or(usual.variation);
+    let settings = AnimalsOptions { place, home: asked.home, variation };
     Animals::new(animals.collect::<Result<Vec<_>>>()?, settings, kinds)
 }

@@ -5,6 +5,7 @@ pub mod bites;
 pub mod catalog;
 pub mod drifters;
 pub mod fish;
+pub mod fishing;
 mod names;
 pub mod placement;
 pub mod plants;
@@ -20,6 +21,7 @@ pub fn registry() -> Registry {
     let mut registry = Registry::default();
     add_animals(&mut registry, Arc::default());
     add_drifters(&mut registry);
+    registry.add_population("fishing_line", |bytes| boxed(fishing::FishingLine::from_saved(bytes)));
     registry.add_population("fish_school", |bytes| boxed(fish::FishSchool::from_saved(bytes)));
     registry.add_population("plants", |bytes| boxed(plants::Plants::from_saved(bytes)));
     registry.add_population("stand", |bytes| boxed(stand::Stand::from_saved(bytes)));

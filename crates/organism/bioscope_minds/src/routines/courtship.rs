@@ -11,10 +11,12 @@ use crate::nature::{Nature, Relation, Temper};
 const TOLERANCE: f32 = std::f32::consts::FRAC_PI_6;
 /// Seconds without sight or heed of the partner after which it is given up.
 const PATIENCE: f64 = 4.0;
+/// The same once they circle: who is followed closely has its follower behind, out of sight.
+const PATIENCE_IN_PAIR: f64 = 15.0;
 /// Seconds after which a stage that does not come to its end is begun anew.
 const STAGE_LIMIT: f64 = 40.0;
 /// Seconds for which it shows that it has spawned.
-const AFTERGLOW: f64 = 1.0;
+const AFTERGLOW: f64 = 3.0;
 /// Seconds of a loop that lead away from the female.
 const LOOP_TIME: f64 = 0.8;
 /// Seconds for which those who rejected it are not courted again.
@@ -101,14 +103,15 @@ impl Courtship {
         let now = situation.percepts.time;
         self.rejected.retain(|&(_, until)| now < until);
         self.select(situation, nature, temper, preferences);
+        if self.stage == Stage::Circle {
+            self.count_turns(situation.percepts);
+        }
         let Some(partner) = situation.find(self.partner).filter(|_| self.partner != NOTHING) else {
-            if self.partner != NOTHING && now - self.seen > PATIENCE {
+            if self.partner != NOTHING && now - self.seen > self.patience() {
                 self.begin(NOTHING, now);
             }
-            // Out of sight for a moment: turns to where it was.
-            let search =
-                Command { turn: 1.5 * self.side, ..Command::ahead(0.7 * temper.cruise_speed) };
-            return ((self.partner != NOTHING).then_some(search), false);
+            let command = self.unseen(situation, nature, temper);
+            return ((self.partner != NOTHING).then_some(command), false);
         };
         self.side = if partner.position.x < 0.0 { -1.0 } else { 1.0 };
         self.seen = now;
@@ -121,7 +124,6 @@ impl Courtship {
             Stage::Display | Stage::Loop => self.swim_loop(partner, situation, temper),
             Stage::Circle => {
                 let tail = partner.position - partner.heading * (0.5 * partner.size);
-                self.count_turns(situation.percepts);
                 toward(tail, partner.velocity, situation, temper)
             }
             Stage::Ascend if female => rise(situation, temper),
@@ -144,9 +146,29 @@ impl Courtship {
         (Some(command), spawned)
     }
 
+    /// What it does while its partner is out of sight for a moment: she goes on with what she did, he turns to
+    /// where she was.
+    fn unseen(&mut self, situation: &Situation, nature: &Nature, temper: &Temper) -> Command {
+        let (female, now) = (nature.habits.female, situation.percepts.time);
+        if female && self.stage == Stage::Ascend {
+            if situation.percepts.depth <= temper.spawning_depth {
+                self.enter(Stage::Nuzzle, now);
+            }
+            return rise(situation, temper);
+        }
+        if female && matches!(self.stage, Stage::Loop | Stage::Nuzzle) {
+            return hover(now);
+        }
+        Command { turn: 1.5 * self.side, ..Command::ahead(0.7 * temper.cruise_speed) }
+    }
+
     /// Whether it has a partner of whom it knew a moment ago.
     pub fn lasts(&self, now: f64) -> bool {
-        self.partner != NOTHING && now - self.seen <= PATIENCE
+        self.partner != NOTHING && now - self.seen <= self.patience()
+    }
+
+    fn patience(&self) -> f64 {
+        if self.stage >= Stage::Circle { PATIENCE_IN_PAIR } else { PATIENCE }
     }
 
     fn begin(&mut self, partner: Id, now: f64) {
@@ -180,6 +202,11 @@ impl Courtship {
         preferences: &Preferences,
     ) {
         if self.stage > Stage::Loop || (self.stage == Stage::Loop && !nature.habits.female) {
+            return;
+        }
+        let in_view = situation.mates.iter().any(|one| one.id == self.partner);
+        if self.stage == Stage::Loop && !in_view && self.lasts(situation.percepts.time) {
+            // He loops behind her for a moment.
             return;
         }
         let largest = situation.mates.iter().map(|one| one.size).fold(1e-6, f32::max);
@@ -251,7 +278,7 @@ impl Courtship {
             }
             Stage::Display if !wants => Stage::Follow,
             Stage::Loop | Stage::Circle | Stage::Ascend if another => return self.give_up(now),
-            stage if stage > Stage::Display && now - self.heeded > PATIENCE => Stage::Follow,
+            stage if stage > Stage::Display && now - self.heeded > self.patience() => Stage::Follow,
             Stage::Loop if !female && self.count > temper.loops as u32 => Stage::Circle,
             Stage::Loop if female && shown.act == Act::Circling => Stage::Circle,
             Stage::Circle if female && self.turned.abs() >= TAU * temper.turns => Stage::Ascend,

@@ -6,14 +6,15 @@
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
-use bioscope_core::{Event, Id, NOTHING, Vec3};
+use bioscope_core::{Event, Id, NOTHING, SoundEvent, Vec3};
+use bioscope_motion::Body;
 use bioscope_world::Moment;
 
 use super::individual::{Individual, Record};
 use crate::bites::{BITTEN, CAUGHT, EATEN, Gone, bitten};
 
 /// How far the mouth lies ahead of the middle, and how far it reaches when it sucks, body lengths.
-const MOUTH: f32 = 0.48;
+pub(super) const MOUTH: f32 = 0.48;
 const REACH: f32 = 0.15;
 /// Opening from which it bites.
 const OPEN: f32 = 0.5;
@@ -52,6 +53,24 @@ pub(super) fn bitten_by(biter: Id, prey: Id, moment: &Moment) -> Event {
         object: Some(biter),
         data: BTreeMap::new(),
     }
+}
+
+/// The noise of jaws that closed on something in the last tick: deeper and louder the larger they are (choice).
+pub(super) fn bite_sound(record: &Record, body: &dyn Body) -> Option<SoundEvent> {
+    if record.percepts.fed == 0 {
+        return None;
+    }
+    let (length, placement) = (body.length(), body.placement());
+    Some(SoundEvent {
+        source: NOTHING,
+        kind: Cow::Borrowed("bite"),
+        time: 0.0,
+        duration: 0.12,
+        position: placement.position + placement.rotation() * Vec3::Z * (MOUTH * length),
+        velocity: body.velocity(),
+        amplitude: (0.3 * length).min(0.3),
+        pitch: 350.0 / length.clamp(0.1, 3.0),
+    })
 }
 
 /// Takes those away who were bitten in the last tick.

@@ -1,7 +1,7 @@
 use std::sync::Arc;
 
 use bioscope_core::{
-    Act, Annotation, Error, Id, Intention, NOTHING, Percepts, Purpose, Result, Vec3,
+    Act, Annotation, Display, Error, Id, Intention, NOTHING, Percepts, Purpose, Result, Vec3,
 };
 use bioscope_dynamics::Influence;
 use bioscope_minds::Mind;
@@ -70,6 +70,8 @@ pub(super) struct Record {
     reported: [Option<f64>; NOTEWORTHY.len()],
     /// Which of them is reported in this tick.
     news: Option<usize>,
+    /// The hook on which it hangs.
+    pub hook: Option<Id>,
     /// Whom it bites in this tick.
     pub bite: Option<Id>,
     /// What it has shown of a courtship so far, so that each stage is reported once.
@@ -117,6 +119,12 @@ impl Individual {
 
     pub fn decide(&mut self, moment: &Moment) -> Result<()> {
         let record = &mut self.record;
+        if record.hook.is_some() {
+            record.annotations.clear();
+            (record.bite, record.news, record.stage) = (None, None, None);
+            record.intention = super::hooked::struggle(record, moment.time);
+            return Ok(());
+        }
         let mut random = moment.random(self.id, DECISION);
         record.annotations.clear();
         let mind = &mut self.parts.mind;
@@ -143,7 +151,9 @@ impl Individual {
         let body = &mut self.parts.body;
         let reach = 0.25 * body.length();
         let position = body.placement().position;
-        body.shift(super::contact::way_out(position, reach, environment));
+        if self.record.hook.is_none() {
+            body.shift(super::contact::way_out(position, reach, environment));
+        }
         let placement = body.placement();
         let sound = placement.position.is_finite()
             && placement.rotation().is_finite()
@@ -170,7 +180,8 @@ impl Record {
 
     /// Takes note of the stage that a courtship has reached.
     fn court(&mut self) {
-        let act = self.intention.display.act;
+        let Display { act, partner, .. } = self.intention.display;
+        let act = if partner == NOTHING && act != Act::Spawned { Act::Other } else { act };
         let reached = COURTSHIP.iter().position(|(one, _)| *one == act);
         self.stage = reached.filter(|_| act != self.shown);
         self.shown = act;

@@ -14,6 +14,7 @@
 
 mod contact;
 mod feeding;
+mod hooked;
 mod individual;
 mod inspection;
 mod kinds;

@@ -15,7 +15,7 @@ use serde::{Deserialize, Serialize};
 
 use super::contact::way_out;
 use super::individual::{Individual, Record};
-use super::{Animal, Kinds, feeding};
+use super::{Animal, Kinds, feeding, hooked};
 use crate::bites::{CAUGHT, Gone};
 use crate::names::free_name;
 
@@ -213,11 +213,20 @@ impl Population for Animals {
         let bodies = self.individuals.iter_mut().map(|one| &mut one.parts.body);
         let mut muscles: Vec<_> = bodies.filter_map(|body| body.muscles()).collect();
         MuscleSwimmer::advance_together(&mut muscles, dt);
-        self.each(|individual, _| individual.arrive(view.environment))
+        let hooks = hooked::places(&self.individuals, view.scene);
+        self.each(|individual, _| {
+            match individual.record.hook.map(|hook| hooks.get(&hook)) {
+                Some(Some(&hook)) => individual.hang(hook),
+                Some(None) => individual.record.hook = None,
+                None => {}
+            }
+            individual.arrive(view.environment)
+        })
     }
 
     fn grow(&mut self, growth: &mut Growth) -> Result<()> {
         self.caught = feeding::be_caught(&mut self.individuals, growth.events);
+        hooked::hook(&mut self.individuals, growth.events);
         Ok(())
     }
 
@@ -239,6 +248,7 @@ impl Population for Animals {
             scene.annotations.append(&mut annotations);
             let first = sounds.len();
             body.sounds(sounds);
+            sounds.extend(feeding::bite_sound(&individual.record, body.as_ref()));
             for sound in &mut sounds[first..] {
                 (sound.source, sound.time) = (individual.id, moment.time);
             }

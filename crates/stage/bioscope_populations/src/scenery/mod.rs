@@ -15,6 +15,7 @@ mod tests;
 mod textures;
 
 pub use corals::{CoralKind, CoralParameters, Corals, CoralsOptions};
+pub(crate) use forms::tube;
 pub use ground::{Ground, GroundOptions};
 pub use props::{Picture, Prop, Props, PropsOptions};
 pub use rocks::{Rocks, RocksOptions};

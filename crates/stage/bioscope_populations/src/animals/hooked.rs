@@ -1,0 +1,61 @@
+//! An animal on a hook: it struggles, and goes where the hook goes.
+
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+
+use bioscope_core::{Event, Id, Intention, Vec3, math};
+use bioscope_geometry::Scene;
+
+use super::feeding::MOUTH;
+use super::individual::{Individual, Record};
+use crate::bites::HOOKED;
+
+/// How often it throws itself round, per second (choice).
+const THROWS: f64 = 1.6;
+
+/// Takes note of those who were hooked in the last tick.
+pub(super) fn hook(individuals: &mut [Individual], events: &[Event]) {
+    for event in events.iter().filter(|one| one.kind == HOOKED) {
+        let caught = individuals.iter_mut().find(|one| one.id == event.subject);
+        if let Some(caught) = caught {
+            caught.record.hook = event.object;
+        }
+    }
+}
+
+/// Where the hooks are on which some of them hang.
+pub(super) fn places(individuals: &[Individual], scene: &Scene) -> BTreeMap<Id, Vec3> {
+    let hooks = individuals.iter().filter_map(|one| one.record.hook);
+    hooks.filter_map(|hook| Some((hook, place(hook, scene)?))).collect()
+}
+
+fn place(id: Id, scene: &Scene) -> Option<Vec3> {
+    scene.batches.iter().find_map(|batch| {
+        let index = batch.ids.iter().position(|&one| one == id)?;
+        batch.transforms.get(index).map(|one| one.position)
+    })
+}
+
+/// What it does: beats upward with all its strength and throws itself from side to side.
+pub(super) fn struggle(record: &Record, time: f64) -> Intention {
+    let up = record.percepts.attitude.inverse() * Vec3::Y;
+    let side = math::sin(((time * THROWS).fract() as f32) * math::TAU);
+    Intention {
+        behavior: Cow::Borrowed("struggle"),
+        heading: (Vec3::Z * 0.5 + up + Vec3::X * (0.8 * side)).normalize_or(Vec3::Z),
+        speed: 3.0,
+        urgency: 1.0,
+        mouth: 0.4,
+        ..Intention::default()
+    }
+}
+
+impl Individual {
+    /// Hangs by the mouth at this point.
+    pub(super) fn hang(&mut self, hook: Vec3) {
+        let body = &mut self.parts.body;
+        let placement = body.placement();
+        let mouth = placement.position + placement.rotation() * Vec3::Z * (MOUTH * body.length());
+        body.shift(hook - mouth);
+    }
+}

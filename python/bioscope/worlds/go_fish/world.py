@@ -1,0 +1,49 @@
+"""Hungry fishes forage among pillars; a hook is lowered, one of them bites and is hauled out.
+
+Watch for: the fishes that zigzag from morsel to morsel; the worm that comes down on its line; the
+one that takes it, throws itself from side to side and is gone, while the others feed on.
+
+Source: X. Tu, "Artificial animals for computer animation", 1996, section 8.1, the film "Go Fish!".
+"""
+
+from __future__ import annotations
+
+import bioscope as bio
+from bioscope.worlds.seascape import pillar, seascape
+
+FILM_SEED = 4
+_HOME = (0.0, -4.3, 0.2)
+_BITE = "bait"
+
+
+def world(seed: int) -> bio.World:
+    """Make the bay, those who feed in it and the line."""
+    bay = seascape(seed, "go_fish")
+    pillar(bay, (-1.7, -1.2), 0.28, -2.9)
+    pillar(bay, (1.9, -0.6), 0.22, -3.6)
+    for species, count, food in [
+        ("emperor_angelfish", 3, [_BITE]),
+        ("parrotfish", 2, ["plankton"]),
+        ("butterflyfish", 5, ["plankton"]),
+        ("yellow_tang", 5, ["plankton"]),
+    ]:
+        hungry = bio.minds.Intentions(
+            "pacifist", food=food, appetite=25.0, home_range=2.0, libido_growth=0.0
+        )
+        bay.add(
+            bio.RoamingFish(species, count, center=_HOME, radius=1.4, mind=hungry, body="swimmer")
+        )
+    bay.add(bio.Plankton(900, low=(-3.0, -5.4, -2.4), high=(3.0, -2.4, 2.4)))
+    bay.add(bio.FishingLine((0.2, 0.4), bait=_BITE, start=9.0, depth=4.1, sinking=1.2, hauling=0.6))
+    _place_cameras(bay)
+    return bay
+
+
+def _place_cameras(bay: bio.World) -> None:
+    cameras = bay.cameras
+    cameras.fixed("bay", position=(0.9, -4.5, 3.4), target=(0.1, -4.2, 0.0), field_of_view=52)
+    cameras.follow("angelfish", species="emperor_angelfish", offset=(2.2, 0.4, 2.2))
+    cameras.follow("tang", species="yellow_tang", offset=(2.6, 0.5, 2.6))
+    cameras.fixed("hook", position=(0.9, -4.35, 1.7), target=(0.2, -4.0, 0.4), field_of_view=44)
+    cameras.fixed("haul", position=(1.1, -4.9, 2.0), target=(0.2, -3.0, 0.4), field_of_view=56)
+    bay.shots = [("bay", 5.0), ("angelfish", 4.0), ("hook", 12.0), ("haul", 9.0), ("bay", 4.0)]

@@ -1,0 +1,1 @@
+"""The ready-made world `jack_cousto`."""

@@ -1,0 +1,46 @@
+"""Two male idols court one female; the larger wins her, and the other finds somebody else.
+
+Watch for: the male that loops before the female's head while she hovers and bobs; the pair that
+circles, each after the other's tail; the ascent; three touches from below, and spawning.
+
+Source: X. Tu, "Artificial animals for computer animation", 1996, section 8.2, "Mating".
+"""
+
+from __future__ import annotations
+
+import bioscope as bio
+from bioscope.worlds.seascape import seascape
+
+FILM_SEED = 4
+_CAST = [
+    # Species, share of females, how many, where.
+    ("moorish_idol", 0.0, 2, (0.0, -4.2, 0.6)),
+    ("moorish_idol", 1.0, 1, (0.3, -4.3, 0.9)),
+    ("butterflyfish", 1.0, 1, (-1.2, -4.3, 0.2)),
+    ("emperor_angelfish", 0.5, 2, (1.6, -4.1, -0.6)),
+]
+
+
+def world(seed: int) -> bio.World:
+    """Make the bay and those who court in it."""
+    bay = seascape(seed, "mating")
+    # A morsel stills their hunger; then they think of mating alone.
+    mind = bio.minds.Intentions(
+        "pacifist",
+        food=["plankton"],
+        appetite=0.5,
+        digestion=0.0,
+        food_weight=0.2,
+        libido_growth=0.01,
+        mate_weight=0.0,
+        cruise_speed=1.7,
+        home_range=1.5,
+        spawning_depth=3.4,
+    )
+    for species, females, count, center in _CAST:
+        pair = bio.RoamingFish(
+            species, count, center=center, radius=0.5, mind=mind, females=females, body="swimmer"
+        )
+        bay.add(pair)
+    bay.add(bio.Plankton(900, low=(-4.0, -5.5, -3.0), high=(4.0, -2.0, 4.0)))
+    return bay
