@@ -34,7 +34,11 @@ def world(seed: int) -> bio.World:
             bio.RoamingFish(species, count, center=_HOME, radius=1.4, mind=hungry, body="swimmer")
         )
     bay.add(bio.Plankton(900, low=(-3.0, -5.4, -2.4), high=(3.0, -2.4, 2.4)))
-    bay.add(bio.FishingLine((0.2, 0.4), bait=_BITE, start=9.0, depth=4.1, sinking=1.2, hauling=0.6))
+    bay.add(
+        bio.FishingLine(
+            (0.2, 0.4), bait=_BITE, start=9.0, depth=4.1, sinking=1.2, hauling=0.6, thickness=0.005
+        )
+    )
     _place_cameras(bay)
     return bay
 
@@ -44,6 +48,6 @@ def _place_cameras(bay: bio.World) -> None:
     cameras.fixed("bay", position=(0.9, -4.5, 3.4), target=(0.1, -4.2, 0.0), field_of_view=52)
     cameras.follow("angelfish", species="emperor_angelfish", offset=(2.2, 0.4, 2.2))
     cameras.follow("tang", species="yellow_tang", offset=(2.6, 0.5, 2.6))
-    cameras.fixed("hook", position=(0.9, -4.35, 1.7), target=(0.2, -4.0, 0.4), field_of_view=44)
-    cameras.fixed("haul", position=(1.1, -4.9, 2.0), target=(0.2, -3.0, 0.4), field_of_view=56)
-    bay.shots = [("bay", 5.0), ("angelfish", 4.0), ("hook", 12.0), ("haul", 9.0), ("bay", 4.0)]
+    cameras.fixed("hook", position=(0.75, -4.2, 1.5), target=(0.2, -3.85, 0.4), field_of_view=46)
+    cameras.fixed("haul", position=(0.8, -4.1, 1.7), target=(0.2, -2.7, 0.4), field_of_view=58)
+    bay.shots = [("bay", 5.0), ("angelfish", 4.0), ("hook", 7.2), ("haul", 5.8), ("bay", 4.0)]

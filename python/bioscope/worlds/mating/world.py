@@ -43,4 +43,27 @@ def world(seed: int) -> bio.World:
         )
         bay.add(pair)
     bay.add(bio.Plankton(900, low=(-4.0, -5.5, -3.0), high=(4.0, -2.0, 4.0)))
+    _place_cameras(bay)
     return bay
+
+
+def _place_cameras(bay: bio.World) -> None:
+    cameras = bay.cameras
+    cameras.follow("suitor", species="moorish_idol", index=0, offset=(2.6, 0.4, 2.2))
+    cameras.follow("bride", species="moorish_idol", index=2, offset=(3.0, 0.4, 2.0))
+    cameras.follow("butterflyfish", species="butterflyfish", offset=(3.2, 0.5, 2.6))
+    cameras.fixed("pair", position=(1.9, -4.35, 2.75), target=(1.72, -4.2, 1.1), field_of_view=40)
+    cameras.fixed("bay", position=(0.9, -4.4, 3.4), target=(0.8, -4.1, 0.4), field_of_view=50)
+    cameras.fixed(
+        "spawning", position=(2.4, -3.65, 4.1), target=(2.45, -3.3, 1.9), field_of_view=44
+    )
+    bay.shots = [
+        ("suitor", 4.5),
+        ("pair", 8.0),
+        ("bay", 4.0),
+        ("pair", 9.0),
+        ("spawning", 8.5),
+        ("bride", 5.0),
+        ("spawning", 5.0),
+        ("butterflyfish", 5.0),
+    ]
