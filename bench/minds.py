@@ -1,10 +1,12 @@
 """Figures of fishes that decide for themselves: senses, minds and bodies, per fish and tick."""
 
+import resource
 import time
 from collections.abc import Iterator
 
 import bioscope as bio
 from bioscope.bench import Figure
+from bioscope.populations.place import Habitat, Rectangle
 
 DENSITY = 2.0
 """Fishes per cubic metre."""
@@ -37,4 +39,69 @@ def minds() -> Iterator[Figure]:
         yield Figure(f"fish.{kind}", many, "us", target=33.0, note=note)
 
 
-BENCHMARKS = {"minds": minds}
+TICK = 1 / 30
+"""Seconds per tick of complete fishes."""
+KINDS = {"anthias": 0.5, "chromis": 0.3, "fusilier": 0.15, "butterflyfish": 0.05}
+"""Share of each species among complete fishes."""
+
+
+def reef(count: int, radius: float) -> bio.World:
+    """Return the reef's ground, rocks, corals, plants and plankton with this many complete fishes.
+
+    Each has muscles that pull springs in water, all senses and a mind with drives; they begin in a
+    ball of this radius.
+    """
+    world = bio.World(seed=7, dt=TICK)
+    swell = bio.Current(direction=(1.0, 0.0, 0.35), speed=0.08, surge=0.16, turbulence=0.05)
+    world.environment.water(surface=0.0, current=swell)
+    world.add(bio.Ground(relief={}))
+    world.add(bio.Rocks(46, habitat=Habitat(area=Rectangle((-9.0, -8.0), (9.0, 5.0)))))
+    garden = Habitat(area=Rectangle((-8.0, -7.0), (8.0, 3.0)), patchiness=0.75, patch=2.5)
+    world.add(bio.Corals({"Brain": 12, "Table": 9, "Bush": 22, "Fan": 12}, habitat=garden))
+    world.add(bio.Plants("seagrass", 60, habitat=garden))
+    world.add(bio.Plants("kelp", 16, habitat=garden))
+    world.add(bio.Plankton(1800, low=(-9.0, -9.0, -8.0), high=(9.0, -0.2, 10.0)))
+    for species, share in KINDS.items():
+        mind = bio.minds.Intentions(
+            "generic", enemies=["shark"], food=["plankton"], habits=["school"], home_range=radius
+        )
+        world.add(
+            bio.RoamingFish(
+                species,
+                round(share * count),
+                center=(0.0, -4.0, 0.0),
+                radius=radius,
+                mind=mind,
+                body="muscle_swimmer",
+            )
+        )
+    return world
+
+
+def seconds_per_tick(count: int, radius: float) -> float:
+    """Return the time of a tick (best of several) after the fishes have taken their places."""
+    world = reef(count, radius)
+    world.step(60)
+    best = float("inf")
+    for _ in range(5):
+        start = time.perf_counter()
+        world.step(10)
+        best = min(best, (time.perf_counter() - start) / 10)
+    return best
+
+
+def full() -> Iterator[Figure]:
+    """Complete fishes in the reef: muscles, senses, minds, at 30 ticks per second."""
+    empty = seconds_per_tick(0, 1.0)
+    few = (seconds_per_tick(100, 2.0) - empty) / 100
+    whole = seconds_per_tick(1000, 2.0 * 10 ** (1 / 3))
+    many = (whole - empty) / 1000
+    note = f"1,000, with senses and minds, at 30 ticks/s; {1e6 * many:.1f} us each; reef included"
+    yield Figure("fish.full", TICK / whole, "x real time", target=1, better="higher", note=note)
+    note = "cost per fish among 1,000 over that among 100 at equal density"
+    yield Figure("fish.full_growth", many / few, "1", target=1.3, note=note)
+    memory = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+    yield Figure("fish.full_memory", memory, "MB", target=1000, note="of the whole process")
+
+
+BENCHMARKS = {"minds": minds, "fish.full": full}

@@ -78,6 +78,49 @@ def test_turns_reach_their_angle(degrees):
     assert angle == pytest.approx(degrees, rel=0.15)
 
 
+def quick_turn(seconds: float) -> tuple[float, float]:
+    """Swim for a while, turn by 90 degrees: radius in body lengths, seconds to 80 degrees."""
+    tank = cruising()
+    tank.run(seconds)
+    start = tank.yaw
+    tank.turn(np.pi / 2)
+    now, track = tank.center, []
+    while not track or track[-1][0] < np.radians(80):
+        tank.step()
+        before, now = now, tank.center
+        yaw = float(np.unwrap([start, tank.yaw])[1]) - start
+        track.append((yaw, np.linalg.norm(now - before)))
+        assert len(track) * tank.dt < 2
+    angles, ways = np.array(track).T
+    turning = slice(int(np.argmax(angles > np.radians(15))), None)
+    span = angles[-1] - angles[turning][0]
+    return ways[turning].sum() / span / tank.length, len(track) * tank.dt
+
+
+@pytest.mark.capability("TF-034")
+def test_turns_are_as_tight_and_as_quick_as_a_fishs():
+    turns = [quick_turn(0.1 * number) for number in range(6)]
+    radius, seconds = np.mean(turns, axis=0)
+    assert 0.15 < radius < 0.5
+    assert 0.3 < seconds < 0.8
+
+
+@pytest.mark.capability("TF-044")
+def test_fins_against_each_other_roll_and_turn():
+    tank = cruising()
+    tank.place(roll=np.pi / 6)
+    tank.kick((0, 0, tank.cruise))
+    tank.step(steps=3)
+    left, right = tank.fins
+    assert abs(left - right) > 0.1
+    tank.run(1)
+    assert abs(tank.roll) < np.radians(10)
+    still = bio.fish.Tank("anthias")
+    still.turn(np.pi / 2)
+    still.run(1.5)
+    assert still.yaw > np.radians(60)
+
+
 @pytest.mark.capability("TF-036")
 def test_a_u_turn_is_made_of_parts():
     angle = np.degrees(turned(cruising(), np.pi))

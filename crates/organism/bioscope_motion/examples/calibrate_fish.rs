@@ -10,7 +10,7 @@ use std::fmt::Write as _;
 use std::process::ExitCode;
 
 use bioscope_core::{Error, Purpose, Random, Result};
-use bioscope_motion::fish::calibration::{Swimming, calibrate, measure_strokes};
+use bioscope_motion::fish::calibration::{Swimming, calibrate, harder, measure_strokes};
 use bioscope_motion::fish::{FishDesign, Stroke};
 
 fn main() -> ExitCode {
@@ -48,20 +48,39 @@ fn run(file: &str, rounds: u64) -> Result<()> {
     std::fs::write(file, written(&design)).map_err(trouble)
 }
 
-/// How much like a fish's its swimming is: long strides, Strouhal number about 0.33, little recoil, an S-shaped body.
-fn merit(swimming: &Swimming) -> f64 {
-    if !swimming.whole || swimming.speed <= 0.0 {
+/// Efforts at which a design is judged: slow, easy, fast, fastest.
+const EFFORTS: [f64; 4] = [0.4, 1.0, 2.0, 3.5];
+
+/// How much like a fish's its swimming is: easily with long strides, Strouhal number about 0.33, little recoil and an
+/// S-shaped body; at any effort straight and whole; and with speed in reserve.
+fn merit(swimming: &[Swimming]) -> f64 {
+    if swimming.iter().any(|one| !one.whole || one.speed <= 0.0) {
         return -10.0;
     }
-    let Swimming { stride, strouhal, recoil, bends, drift, .. } = *swimming;
-    stride.min(0.65)
+    let Swimming { stride, strouhal, bends, speed, .. } = swimming[1];
+    let easy = stride.min(0.65)
         - 3.0 * ((strouhal - 0.38).max(0.0) + (0.26 - strouhal).max(0.0))
-        - 5.0 * (recoil - 0.07).max(0.0)
-        - 0.3 * (bends + 0.7).max(0.0)
-        - drift.abs()
+        - 0.3 * (bends + 0.7).max(0.0);
+    let faults = |one: &Swimming| one.drift.abs() + 5.0 * (one.recoil - 0.07).max(0.0);
+    let hard = |one: &Swimming| {
+        0.5 * one.drift.abs() + 2.0 * (one.recoil - 0.1).max(0.0) + (one.strouhal - 0.6).max(0.0)
+    };
+    let reserve = swimming[3].speed.max(swimming[2].speed) / speed;
+    easy + 0.1 * reserve.min(4.0) + 0.5 * (swimming[0].stride / stride).min(0.8)
+        - faults(&swimming[0])
+        - faults(&swimming[1])
+        - hard(&swimming[2])
+        - hard(&swimming[3])
 }
 
-/// The better of a design and a neighbor of it, tried with eight strokes.
+/// How a design swims at all [`EFFORTS`] with each of these strokes as that of easy swimming.
+fn swimmings(design: &FishDesign, easy: &[Stroke]) -> Result<Vec<Vec<Swimming>>> {
+    let strokes = easy.iter().flat_map(|easy| EFFORTS.map(|effort| harder(easy, effort)));
+    let found = measure_strokes(design, &strokes.collect::<Vec<_>>())?;
+    Ok(found.chunks(EFFORTS.len()).map(<[Swimming]>::to_vec).collect())
+}
+
+/// The better of a design and a neighbor of it, tried with two strokes.
 fn improved(design: FishDesign, easy: Stroke, round: u64) -> Result<(FishDesign, Stroke)> {
     let mut random = Random::new(1, 1, round, Purpose::new("calibrate"));
     let mut neighbor = design.clone();
@@ -73,16 +92,15 @@ fn improved(design: FishDesign, easy: Stroke, round: u64) -> Result<(FishDesign,
     shape.half_widths.iter_mut().for_each(|value| change(value, 0.05, 0.012, 0.08));
     change(&mut shape.tail_half_height, 0.05, 0.06, 0.18);
     neighbor.tissue.stiffness.iter_mut().for_each(|value| change(value, 0.1, 0.1, 500.0));
-    change(&mut neighbor.swim.lag, 0.05, 0.2, 0.6);
-    let mut strokes = vec![easy; 8];
-    for stroke in &mut strokes[1..] {
-        stroke.amplitudes.iter_mut().for_each(|value| change(value, 0.1, 0.0, 1.0));
-    }
-    let present = merit(&measure_strokes(&design, &[easy])?[0]);
-    let Ok(found) = measure_strokes(&neighbor, &strokes) else { return Ok((design, easy)) };
-    let best = (0..8).max_by(|&a, &b| merit(&found[a]).total_cmp(&merit(&found[b]))).unwrap_or(0);
-    if merit(&found[best]) > present {
-        eprintln!("round {round}: {}", told(&found[best]));
+    let mut strokes = [easy; 2];
+    strokes[1].amplitudes.iter_mut().for_each(|value| change(value, 0.1, 0.0, 1.0));
+    let present = merit(&swimmings(&design, &[easy])?[0]);
+    let Ok(found) = swimmings(&neighbor, &strokes) else { return Ok((design, easy)) };
+    let merits = [merit(&found[0]), merit(&found[1])];
+    let best = usize::from(merits[1] > merits[0]);
+    if merits[best] > present {
+        eprintln!("round {round}: merit {:.3}", merits[best]);
+        found[best].iter().for_each(|one| eprintln!("  {}", told(one)));
         return Ok((neighbor, strokes[best]));
     }
     Ok((design, easy))

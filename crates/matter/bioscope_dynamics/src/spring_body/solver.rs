@@ -12,8 +12,8 @@ use super::skyline::Block;
 #[serde(rename_all = "snake_case")]
 pub enum Integrator {
     /// One Newton step of the implicit Euler method, with the stiffness of all units (but for the negative
-    /// stiffness across a compressed unit) and the resistance of the water (after Baraff & Witkin, "Large Steps in Cloth
-    /// Simulation", 1998). Stable at any step.
+    /// stiffness across a compressed unit, and that across all units of a body whose muscles work) and the resistance of the
+    /// water (after Baraff & Witkin, "Large Steps in Cloth Simulation", 1998). Stable at any step.
     Implicit,
     /// The published scheme (Tu, "Artificial Animals for Computer Animation", section 4.2): forces as effective stiffness
     /// times extension vector, of which the stiffness is frozen and the extension is taken at the new places.
@@ -118,7 +118,7 @@ impl Mechanics {
         forces.copy_from_slice(push);
         let state: [&[_]; 3] = [&body.position, &body.velocity, flow];
         add_forces_and_resistance(anatomy, &self.medium, state, forces, (&mut *matrix, dt));
-        add_units(anatomy, body, forces, matrix, dt);
+        add_units(anatomy, body, forces, matrix, (dt, slackness(body)));
         guard::add_forces_and_resistance(anatomy, body, forces, matrix, dt);
         for (node, &mass) in anatomy.masses.iter().enumerate() {
             let place = &mut matrix[anatomy.skyline.index(node, node)];
@@ -275,15 +275,30 @@ fn strain<R: Real>(anatomy: &Anatomy, body: &Body<R>, index: usize) -> Strain<R>
     Strain { vector, length, inverse, extension: length - rest, rate }
 }
 
+/// 1 for a body whose muscles rest, 0 for one whose muscles work.
+#[inline(always)]
+fn slackness<R: Real>(body: &Body<R>) -> R {
+    /// Contraction from which a muscle works.
+    const WORKING: f64 = 0.1;
+    let most = body.contraction.iter().fold(R::splat(0.0), |most, &one| most.max(one));
+    (R::splat(1.0) - most * R::splat(1.0 / WORKING)).max(R::splat(0.0))
+}
+
 /// Adds the forces of all units at the end of the step as far as they follow from the present velocities, and their
 /// resistance to changes of velocity.
+///
+/// A unit under tension resists being turned, which in the whole body is made up for by those under compression. With the
+/// compressions left out, for definiteness (Baraff and Witkin), the tensions make sure that a passive body never gains energy; but a
+/// body whose muscles strain against the rest of it would be turned as if it swam in syrup, and the more the longer the step.
+/// So tension counts as far as the body is `slack`. Working muscles do without: units that brace each other in all
+/// directions hold the body.
 #[inline(always)]
 fn add_units<R: Real>(
     anatomy: &Anatomy,
     body: &Body<R>,
     forces: &mut [Triple<R>],
     matrix: &mut [Block<R>],
-    dt: R,
+    (dt, slack): (R, R),
 ) {
     let square = dt * dt;
     for (index, (unit, places)) in anatomy.units.iter().zip(&anatomy.places).enumerate() {
@@ -291,7 +306,7 @@ fn add_units<R: Real>(
         let [a, b] = unit.ends;
         let (stiffness, damping) = (R::splat(unit.stiffness), R::splat(unit.damping));
         let direction = scale(vector, inverse);
-        let sideways = stiffness * extension.max(R::splat(0.0)) * inverse;
+        let sideways = slack * stiffness * extension.max(R::splat(0.0)) * inverse;
         // How far the unit's force changes in the step if it goes on as it moves now.
         let ahead = (stiffness - sideways) * rate * dt;
         let tension = stiffness * extension + damping * rate + ahead;

@@ -266,6 +266,40 @@ fn lanes_agree_with_one_body_and_with_any_instructions() {
 }
 
 #[test]
+fn muscles_that_strain_do_not_keep_a_body_from_turning() {
+    let tissue =
+        FishTissue { stiffness: [11.0, 213.0, 15.0], damping: 2.0, shortening: 0.2, ..TISSUE };
+    let mut mechanics = published(Integrator::Implicit);
+    mechanics.anatomy = fish(&SHAPE, &tissue).expect("a sound fish");
+    mechanics.medium.thickness = 0.0;
+    let mut body = Body::<f64>::at_rest(&mechanics.anatomy);
+    let mut work = Workspace::new(&mechanics.anatomy);
+    let left: [f64; 12] = std::array::from_fn(|muscle| if muscle % 4 < 2 { 1.0 } else { 0.0 });
+    for _ in 0..500 {
+        mechanics.contract(&mut body, &left, 0.05);
+        mechanics.step(&mut body, &still(), &still(), STEP, &mut work).expect("definite");
+    }
+    body.velocity.iter_mut().zip(&body.position).for_each(|(velocity, place)| {
+        *velocity = [0.2 * (place[2] + 0.4), 0.0, -0.2 * place[0]];
+    });
+    let spin = |body: &Body<f64>| -> f64 {
+        let masses = &mechanics.anatomy.masses;
+        let mean = |axis: usize| -> f64 {
+            body.position.iter().zip(masses).map(|(place, mass)| place[axis] * mass).sum()
+        };
+        let (x, z) = (mean(0), mean(2));
+        let nodes = body.position.iter().zip(&body.velocity).zip(masses);
+        nodes.map(|((at, v), mass)| mass * ((at[2] - z) * v[0] - (at[0] - x) * v[2])).sum()
+    };
+    let before = spin(&body);
+    for _ in 0..100 {
+        mechanics.step(&mut body, &still(), &still(), 3.0 * STEP, &mut work).expect("definite");
+    }
+    let kept = spin(&body) / before;
+    assert!((0.95..1.05).contains(&kept), "{kept} of the spin is left");
+}
+
+#[test]
 fn a_passive_fish_is_carried_by_the_water() {
     let mechanics = published(Integrator::Implicit);
     let mut body = Body::<f64>::at_rest(&mechanics.anatomy);

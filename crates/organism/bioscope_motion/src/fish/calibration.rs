@@ -208,25 +208,33 @@ fn mean_headings(school: &mut Swimmers<Lanes>, beat: usize, step: f64) -> [f64; 
     sums.map(|[x, z]| x.atan2(z))
 }
 
-/// Fills the tables of a design from measurements, going out from its stroke of easy swimming: slower swimming beats
-/// more seldom and less widely, faster swimming more often. The steering map takes bends of growing depth and
-/// then of growing duration.
+/// A stroke of this effort: one of easy swimming has 1, slower ones beat more seldom and less widely, faster ones more often
+/// and, up to what the muscles can do, more widely.
+pub fn harder(easy: &Stroke, effort: f64) -> Stroke {
+    Stroke {
+        speed: 0.0,
+        frequency: easy.frequency * (0.35 + 0.65 * effort),
+        amplitudes: easy.amplitudes.map(|amplitude| (amplitude * effort.sqrt()).min(1.0)),
+    }
+}
+
+/// Most radians by which a stroke of the swim table may turn a fish in a beat, without feedback.
+const STRAIGHT: f64 = 0.15;
+
+/// Fills the tables of a design from measurements, going out from its stroke of easy swimming: slower and faster swimming is of less
+/// and more effort ([`harder`]). The steering map takes bends of growing depth and then of growing duration.
 ///
 /// # Errors
 /// For impossible designs, and for designs that do not swim forward or do not turn.
 pub fn calibrate(mut design: FishDesign, easy: Stroke) -> Result<FishDesign> {
     let efforts =
         [0.12, 0.2, 0.3, 0.4, 0.55, 0.7, 0.85, 1.0, 1.2, 1.5, 1.8, 2.2, 2.6, 3.1, 3.7, 4.5];
-    let strokes = efforts.map(|effort: f64| Stroke {
-        speed: 0.0,
-        frequency: easy.frequency * (0.35 + 0.65 * effort),
-        amplitudes: easy.amplitudes.map(|amplitude| (amplitude * effort.sqrt()).min(1.0)),
-    });
+    let strokes = efforts.map(|effort| harder(&easy, effort));
     let measured = measure_strokes(&design, &strokes)?;
     let mut rows = vec![Stroke { frequency: strokes[0].frequency, ..Stroke::default() }];
     for ((stroke, swimming), effort) in strokes.iter().zip(&measured).zip(efforts) {
         let faster = swimming.speed > rows[rows.len() - 1].speed * 1.02 + 1e-4;
-        if swimming.whole && faster {
+        if swimming.whole && faster && swimming.drift.abs() < STRAIGHT {
             rows.push(Stroke { speed: swimming.speed, ..*stroke });
         }
         if effort == 1.0 {

@@ -7,6 +7,8 @@ use super::tables::FinSettings;
 
 /// Angle of a fin whose edge is to the water.
 const NEUTRAL: f32 = 0.5 * PI;
+/// Bend from which the inner fin helps to turn.
+const SHARP: f32 = 0.3;
 /// By how much a fin is turned at most to climb, dive or balance.
 const GREATEST: f32 = 0.25 * PI;
 
@@ -33,12 +35,13 @@ impl Default for Fins {
 }
 
 impl Fins {
-    /// Sets the fins as commanded and as pitch, roll and the bend of the body ask for, and returns the force of the left and of the right one.
+    /// Sets the fins as commanded and as pitch, roll and the bend of the body ask for, and returns the force of the left and
+    /// of the right one. `oars` is how hard they row against each other to turn to the left, −1 to 1.
     pub(super) fn advance(
         &mut self,
         settings: &FinSettings,
         command: &Command,
-        (feeling, bend): (&Feeling, f32),
+        (feeling, [bend, oars]): (&Feeling, [f32; 2]),
         dt: f32,
     ) -> [Vec3; 2] {
         let (pitch, roll) = (feeling.frame.pitch(), feeling.frame.roll());
@@ -57,15 +60,22 @@ impl Fins {
             climb if climb < 0.0 => lift.min(0.0),
             _ => lift,
         };
-        let lean = effort(settings.roll, roll, rates[1]);
+        let lean = -effort(settings.roll, -roll, rates[1]);
         let brake = command.brake.clamp(0.0, 1.0);
-        self.angles = [(-lean, bend), (lean, -bend)].map(|(lean, inner)| {
+        self.angles = [-lean, lean].map(|lean| {
             let angle = NEUTRAL + (lift + lean).clamp(-GREATEST, GREATEST);
-            angle + (PI - angle) * brake.max(inner * settings.yaw as f32)
+            angle + (PI - angle) * brake
         });
-        self.stroke(command, dt);
+        self.stroke(command, oars, dt);
         let row = self.row(settings, command, feeling);
-        self.angles.map(|angle| force(settings.area as f32, angle, feeling) + row * 0.5)
+        let couple = feeling.frame.ahead * (settings.oar as f32 * oars);
+        let area = settings.area as f32;
+        let [left, right] = self.angles.map(|angle| force(area, angle, feeling) + row * 0.5);
+        // In a sharp turn the inner one is held against the water.
+        let drag = force(area * settings.yaw as f32, PI, feeling);
+        let [inner_left, inner_right] =
+            [bend, -bend].map(|inner| ((inner - SHARP) / (1.0 - SHARP)).max(0.0));
+        [left - couple + drag * inner_left, right + couple + drag * inner_right]
     }
 
     /// Rowing against the way ahead, harder the more speed backward lacks.
@@ -79,9 +89,9 @@ impl Fins {
     }
 
     /// The beat that is seen: the more a fin is turned from edge-on the wider and faster, and never none.
-    fn stroke(&mut self, command: &Command, dt: f32) {
+    fn stroke(&mut self, command: &Command, oars: f32, dt: f32) {
         let turned = self.angles.map(|angle| (angle - NEUTRAL).abs() / GREATEST);
-        let rowing = if command.backward > 0.0 { 1.0 } else { 0.0 };
+        let rowing = if command.backward > 0.0 { 1.0 } else { oars.abs() };
         let idle = if command.speed > 0.0 { 0.1 } else { 0.5 };
         let wanted = turned[0].max(turned[1]).max(rowing).max(idle).min(1.0);
         self.spread += (wanted - self.spread) * dt / (1.0 + dt);

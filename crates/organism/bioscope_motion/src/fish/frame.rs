@@ -56,7 +56,7 @@ impl Level for Vec3 {
 }
 
 /// The same direction as an angle between −π and π.
-pub(super) fn wrapped(angle: f32) -> f32 {
+pub(crate) fn wrapped(angle: f32) -> f32 {
     let turns = angle / math::TAU;
     (turns - (turns + 0.5).floor()) * math::TAU
 }

@@ -22,6 +22,7 @@ mod turning;
 
 pub use fins::Fins;
 pub use frame::Frame;
+pub(crate) use frame::wrapped;
 pub use model::{FishDesign, FishModel};
 pub use motor::{Command, Effort, Feeling, Motor, published_parameters};
 pub use replay::{Repertoire, Replica, Segment, advance_replicas};

@@ -58,12 +58,16 @@ pub struct Motor {
     pub amplitudes: [f32; 2],
     /// Bend of the turning segments, −1 to 1, positive to the left.
     pub bend: f32,
-    /// The turn that goes on.
+    /// The turn that goes on, if it is done blindly.
     pub turn: Option<Turn>,
+    /// Whether a turn goes on that is watched.
+    rounding: bool,
     /// Pectoral fins.
     pub fins: Fins,
-    /// Heading that is held, radians.
-    course: Option<f32>,
+    /// Angle that is still to be turned, radians, positive to the left.
+    to_turn: f32,
+    /// How the beat swings the trunk about its heading, with the cosine and with the sine of the phase, radians.
+    swing: [f32; 2],
     /// Heading and speed without the beat, and the rate of turning.
     heading: f32,
     pace: f32,
@@ -89,13 +93,22 @@ pub struct Effort {
     pub fins: [Vec3; 2],
 }
 
-/// Bend per radian of heading error, and per radian per time unit of turning.
-const STEERING: [f32; 2] = [1.6, 1.2];
+/// Bend per radian that is still to be turned after the next time units; for less than the small angle, which the beat
+/// alone may swing the trunk by, it is gentler.
+const STEERING: f32 = 4.0;
+const LOOKAHEAD: f32 = 1.5;
+const SMALL: f32 = 0.15;
+/// Radians, and radians per time unit, within which a watched turn is done.
+const ARRIVED: [f32; 2] = [0.08, 0.03];
 /// Extra stroke per lack of speed.
 const START: f32 = 2.0;
-/// Time constants: of the stroke's changes, and of the averages over a beat, time units.
+/// Time constants: of the stroke's changes, of heading, swing and rate of turning as they are felt, and of the average of
+/// speed over a beat, time units.
 const EASE: f32 = 0.8;
-const AVERAGE: f32 = 2.0;
+const HEADING: f32 = 1.0;
+const SWING: f32 = 5.0;
+const TURNING: f32 = 0.5;
+const PACE: f32 = 2.0;
 
 impl Default for Motor {
     fn default() -> Self {
@@ -107,8 +120,10 @@ impl Default for Motor {
             amplitudes: [0.0; 2],
             bend: 0.0,
             turn: None,
+            rounding: false,
             fins: Fins::default(),
-            course: None,
+            to_turn: 0.0,
+            swing: [0.0; 2],
             heading: 0.0,
             pace: 0.0,
             turning: 0.0,
@@ -118,12 +133,15 @@ impl Default for Motor {
 }
 
 impl Motor {
-    /// Begins a turn by this angle in radians, positive to the left; angles beyond those of the steering map are
-    /// done in equal parts. It ends a turn that goes on.
+    /// Begins a turn by this angle in radians, positive to the left. Done blindly it follows the steering map, angles beyond
+    /// which are turned in equal parts, and ends a turn that goes on; watched it is added to what is still to be turned.
     pub fn begin_turn(&mut self, design: &FishDesign, angle: f32) {
-        let from = self.course.filter(|_| self.feedback).unwrap_or(self.heading);
-        self.turn = Some(Turn::new(&design.turn, angle, from));
-        self.course = Some(wrapped(from + angle));
+        if self.feedback {
+            self.to_turn += angle;
+            self.rounding = true;
+        } else {
+            self.turn = Some(Turn::new(&design.turn, angle));
+        }
     }
 
     /// Takes up a new command, once per tick.
@@ -131,13 +149,20 @@ impl Motor {
         self.command = command;
         if let Some(steer) = command.steer {
             self.turn = None;
-            self.course = Some(wrapped(self.heading + steer));
+            self.rounding = false;
+            self.to_turn = steer;
         }
     }
 
     /// Whether a turn still goes on.
     pub fn is_turning(&self) -> bool {
-        self.turn.is_some()
+        self.turn.is_some() || self.rounding
+    }
+
+    /// By how much the beat turns the trunk from its heading now, radians.
+    pub fn sway(&self) -> f32 {
+        let [sine, cosine] = sine_cosine(self.phase * math::TAU);
+        self.swing[0] * cosine + self.swing[1] * sine
     }
 
     /// Heading without the swing of the beat, radians.
@@ -145,12 +170,19 @@ impl Motor {
         self.heading
     }
 
+    /// Begins with this heading, radians.
+    pub(super) fn face(&mut self, heading: f32) {
+        self.heading = heading;
+    }
+
     /// Goes on by `dt` time units.
     pub fn advance(&mut self, design: &FishDesign, feeling: &Feeling, dt: f32) -> Effort {
         self.feel(feeling, dt);
         let turning = self.turn_or_hold(design, dt);
         self.beat(design, dt);
-        let fins = self.fins.advance(&design.fins, &self.command, (feeling, self.bend), dt);
+        let slow = (1.0 - self.pace / design.swim.cruise as f32).clamp(0.0, 1.0);
+        let effort = [self.bend, self.bend * slow];
+        let fins = self.fins.advance(&design.fins, &self.command, (feeling, effort), dt);
         Effort { contraction: self.contraction(design, turning), fins }
     }
 
@@ -159,34 +191,41 @@ impl Motor {
         let pace = feeling.velocity.dot(feeling.frame.ahead);
         if !self.settled {
             (self.heading, self.pace, self.settled) = (yaw, pace, true);
-            self.course = Some(wrapped(yaw + self.command.steer.unwrap_or(0.0)));
         }
-        let share = dt / (AVERAGE + dt);
-        let change = wrapped(yaw - self.heading) * share;
+        // What repeats with the beat is no turn: it is learned and taken away before the heading is judged.
+        let strange = wrapped(yaw - self.sway() - self.heading);
+        let quiet = 1.0 - self.bend.abs();
+        let learned = 2.0 * dt / SWING * strange * quiet;
+        let [sine, cosine] = sine_cosine(self.phase * math::TAU);
+        self.swing = [self.swing[0] + learned * cosine, self.swing[1] + learned * sine];
+        let change = strange * dt / (HEADING + dt);
         self.heading = wrapped(self.heading + change);
-        self.turning += (change / dt - self.turning) * share;
-        self.pace += (pace - self.pace) * share;
+        self.to_turn -= change;
+        self.turning += (change / dt - self.turning) * dt / (TURNING + dt);
+        self.pace += (pace - self.pace) * dt / (PACE + dt);
     }
 
     /// Sets the bend; returns whether a turn-MC has the anterior swim segment.
     fn turn_or_hold(&mut self, design: &FishDesign, dt: f32) -> bool {
         if let Some(turn) = &mut self.turn {
-            let progress = self.feedback.then_some((self.heading, self.turning));
-            self.bend = turn.advance(&design.turn, self.bend, progress, dt);
+            self.bend = turn.advance(&design.turn, self.bend, dt);
             if turn.is_done() {
                 self.turn = None;
             }
             return true;
         }
-        let wanted = match self.course {
-            Some(course) if self.feedback => {
-                let error = wrapped(course - self.heading);
-                (STEERING[0] * error - STEERING[1] * self.turning).clamp(-1.0, 1.0)
-            }
-            _ => 0.0,
-        };
+        // Who swims faster turns faster with the same bend.
+        let authority = (self.pace / design.swim.cruise as f32).max(1.0);
+        // Who glides lets the muscles rest, unless told where to go.
+        let led = self.command.speed > 0.0 || self.rounding || self.command.steer.is_some();
+        let held = self.feedback && led;
+        let lack = if held { self.to_turn - LOOKAHEAD * self.turning } else { 0.0 };
+        let wanted = STEERING * lack * (lack.abs() / SMALL).min(1.0) / authority;
+        if self.to_turn.abs() < ARRIVED[0] && self.turning.abs() < ARRIVED[1] {
+            self.rounding = false;
+        }
         let change = design.turn.rate as f32 * dt;
-        self.bend += (wanted - self.bend).clamp(-change, change);
+        self.bend += (wanted.clamp(-1.0, 1.0) - self.bend).clamp(-change, change);
         false
     }
 

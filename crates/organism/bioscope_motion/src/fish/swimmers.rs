@@ -89,6 +89,8 @@ impl<R: Dispatch> Swimmers<R> {
             repairs: 0,
         });
         group.put(&self.model, lane, rotation);
+        let heading = group.frame(lane).yaw();
+        group.members[lane].motor.face(heading);
         self.count += 1;
         Ok(self.count - 1)
     }

@@ -1,7 +1,6 @@
-use bioscope_core::math::{PI, TAU};
+use bioscope_core::math::TAU;
 use serde::{Deserialize, Serialize};
 
-use super::frame::wrapped;
 use super::tables::TurnTable;
 
 /// What a turn-MC is doing: bending fast to the inner side, holding, recovering slowly (Tu, "Artificial Animals for
@@ -19,7 +18,7 @@ pub enum Stage {
     Done,
 }
 
-/// A turn by a given angle, of one part or several.
+/// A turn by a given angle, of one part or several, done blindly by the steering map.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Turn {
     /// +1 to the left, −1 to the right.
@@ -28,39 +27,27 @@ pub struct Turn {
     angle: f32,
     /// Parts left, with the present one.
     parts: u32,
-    /// Heading at which the present part began.
-    from: f32,
     /// Stage of the present part.
     pub stage: Stage,
     /// Time in this stage, time units.
     time: f32,
 }
 
-/// How much longer than foreseen a bend may be held while the heading is watched.
-const PATIENCE: f32 = 2.0;
-
 impl Turn {
-    pub(super) fn new(table: &TurnTable, angle: f32, from: f32) -> Self {
+    pub(super) fn new(table: &TurnTable, angle: f32) -> Self {
         let size = angle.abs().min(2.0 * TAU);
         let parts = (size / (table.greatest() as f32 + 1e-4)).ceil().max(1.0);
         let side = if angle < 0.0 { -1.0 } else { 1.0 };
         let stage = if size < 1e-4 { Stage::Done } else { Stage::Bend };
-        Self { side, angle: size / parts, parts: parts as u32, from, stage, time: 0.0 }
+        Self { side, angle: size / parts, parts: parts as u32, stage, time: 0.0 }
     }
 
     pub(super) fn is_done(&self) -> bool {
         self.stage == Stage::Done
     }
 
-    /// Goes on by `dt` time units from this bend; returns the next. `progress` is heading and rate of turning if they
-    /// are watched.
-    pub(super) fn advance(
-        &mut self,
-        table: &TurnTable,
-        bend: f32,
-        progress: Option<(f32, f32)>,
-        dt: f32,
-    ) -> f32 {
+    /// Goes on by `dt` time units from this bend; returns the next.
+    pub(super) fn advance(&mut self, table: &TurnTable, bend: f32, dt: f32) -> f32 {
         let row = table.bend(f64::from(self.angle));
         let (rate, recovery) = (table.rate as f32 * dt, table.recovery as f32 * dt);
         self.time += dt;
@@ -74,17 +61,7 @@ impl Turn {
                 next
             }
             Stage::Hold => {
-                let hold = row.hold as f32;
-                let over = match progress {
-                    Some((heading, turning)) => {
-                        let done = self.side * wrapped(heading - self.from);
-                        // What the turning adds while the body straightens.
-                        let coast = self.side * turning * 0.5 * depth.abs() / table.recovery as f32;
-                        done + coast >= self.angle || self.time > PATIENCE * (hold + 1.0)
-                    }
-                    None => self.time >= hold,
-                };
-                if over {
+                if self.time >= row.hold as f32 {
                     self.enter(Stage::Recover);
                 }
                 depth
@@ -106,7 +83,6 @@ impl Turn {
 
     fn next_part(&mut self) {
         self.parts -= 1;
-        self.from = wrapped(self.from + self.side * self.angle.min(PI));
         self.enter(if self.parts == 0 { Stage::Done } else { Stage::Bend });
     }
 }

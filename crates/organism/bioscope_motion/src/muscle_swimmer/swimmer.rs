@@ -6,8 +6,14 @@ use bioscope_dynamics::Influence;
 use bioscope_geometry::Transform;
 
 use crate::Body;
-use crate::fish::{Command, FishModel, Swimmers, pose_from_nodes};
+use crate::fish::{Command, FishModel, Swimmers, pose_from_nodes, wrapped};
 use crate::undulation::{Spine, SwimState};
+
+/// Wish to turn, radians, below which there is none.
+const STRAIGHT: f32 = 1e-4;
+
+/// Share of its own climb that a fish gives up, so that one that only looks ahead comes back to level.
+const LEVELING: f32 = 0.3;
 
 /// A fish that swims by its muscles; see the [module](super).
 #[derive(Clone, Debug)]
@@ -47,12 +53,13 @@ impl MuscleSwimmer {
     pub fn obey(&mut self, intention: &Intention, influence: &Influence, dt: f32) -> Result<()> {
         let length = self.fish.length(0) as f32;
         let speed = intention.speed * length;
+        let (steer, climb) = self.course(intention);
         self.fish.command(
             0,
             Command {
                 speed: speed.max(0.0),
-                steer: Some(intention.turn()),
-                climb: intention.pitch(),
+                steer,
+                climb,
                 brake: intention.brake,
                 backward: (-speed).max(0.0),
             },
@@ -62,6 +69,24 @@ impl MuscleSwimmer {
             self.fish.kick(0, influence.force * dt);
         }
         Ok(())
+    }
+
+    /// Change of heading, if there is to be any, and climb, radians. The mind speaks of directions as its swaying trunk
+    /// has them, the controllers hold those of the world.
+    fn course(&self, intention: &Intention) -> (Option<f32>, f32) {
+        let rotation = self.fish.placement(0).rotation();
+        let yaw = |way: Vec3| math::atan2(way.x, way.z);
+        let pitch = |way: Vec3| math::atan2(way.y, math::sqrt(way.x * way.x + way.z * way.z));
+        let (way, ahead) = (rotation * intention.heading, rotation * Vec3::Z);
+        let climb = pitch(way) - LEVELING * pitch(ahead);
+        let motor = self.fish.motor(0);
+        if intention.turn().abs() > STRAIGHT {
+            let turn = yaw(way) - yaw(ahead) + motor.sway();
+            return (Some(wrapped(turn)), climb);
+        }
+        // Straight on: the course that it has then is held from then on.
+        let went_straight = motor.command.steer.is_none_or(|steer| steer == 0.0);
+        (if went_straight { None } else { Some(0.0) }, climb)
     }
 
     /// Advances all by `dt` seconds; they have been told what to do.

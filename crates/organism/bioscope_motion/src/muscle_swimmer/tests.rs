@@ -92,7 +92,7 @@ fn the_form_follows_the_nodes_without_stretching_much() {
             assert!((link / (cuts[1] - cuts[0]) - 1.0).abs() < 0.3, "{link}");
         }
     }
-    assert!((0.01..0.2).contains(&widest), "the tail swings by {widest} body lengths");
+    assert!((0.01..0.25).contains(&widest), "the tail swings by {widest} body lengths");
 }
 
 #[test]
