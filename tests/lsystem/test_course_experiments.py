@@ -142,3 +142,21 @@ def test_signals_and_buds_are_marked():
     narrow, wide = np.unique(stem.radii[:, 1], return_counts=True)[1]
     # As the table of the mesotonic structure says.
     assert (narrow, wide) == (8, 16)
+
+
+@pytest.mark.capability("PL-601")
+def test_what_can_be_foretold_is_foretold():
+    foretold = {name: gallery.model(name).count for name in gallery.names()}
+    assert {name for name, count in foretold.items() if count} == {
+        "koch_snowflake",
+        "compound_leaf",
+        "basitonic",
+    }
+    assert not foretold["clonal_plant"] + foretold["light_tree"]
+    for name in ("koch_snowflake", "compound_leaf", "basitonic"):
+        formula, of = foretold[name].split(" internodes ")
+        assert of == "F after n steps"
+        for n in range(7):
+            grown = gallery.read(name).derive(n)
+            symbols = np.array(grown.symbols)[grown.kinds]
+            assert (symbols == "F").sum() == eval(formula.replace("^", "**"), {"n": n})

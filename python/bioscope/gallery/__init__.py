@@ -78,6 +78,9 @@ class Model:
     """What to look at while it grows."""
     modules: str
     """What the letters stand for."""
+    count: str
+    """How many modules there are after n steps, `n^2 internodes F after n steps`; empty where only
+    growing the model tells (the course's sense of emergence)."""
     parameters: tuple[Parameter, ...]
 
 
@@ -154,6 +157,7 @@ def model(name: str) -> Model:
         source=fields["source"],
         watch=fields["watch"],
         modules=fields["modules"],
+        count=fields.get("count", ""),
         parameters=tuple(_parameters(source)),
     )
 
