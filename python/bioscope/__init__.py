@@ -39,6 +39,7 @@ from bioscope.world import (
     Parameter,
     Population,
     World,
+    flow,
 )
 from bioscope.worlds import load
 
@@ -83,6 +84,7 @@ __all__ = [
     "__version__",
     "environments",
     "fish",
+    "flow",
     "gallery",
     "load",
     "look",
