@@ -18,7 +18,7 @@ use crate::scenery::{Corals, Ground, Props, Rocks};
 use crate::stand::Stand;
 
 /// The kinds that [`population`] makes.
-pub const KINDS: [&str; 10] = [
+pub const KINDS: [&str; 11] = [
     "bubbles",
     "corals",
     "fish_school",
