@@ -167,3 +167,19 @@ def test_two_trees_grow_away_from_each_other():
     right = centers["pair"][1] - 1.5 - centers["alone"][0]
     assert left <= -0.5
     assert right >= 0.5
+
+
+def test_two_root_systems_part_in_one_field():
+    apart = []
+    for seed in range(1, 7):
+        string = bio.environments.derive(gallery.read("roots_3d"), 110, seed=seed)
+        symbols = np.array(string.symbols)[string.kinds]
+        depth = np.cumsum((symbols == "[").astype(int) - (symbols == "]"))
+        plant = np.cumsum((symbols == "[") & (depth == 1)) - 1
+        strokes = symbols == "F"
+        ends = bio.Turtle().interpret(string).segments.end
+        tips = [ends[(depth[strokes] == 1) & (plant[strokes] == one)][-1] for one in (0, 1)]
+        assert max(tip[1] for tip in tips) < -15, "downward"
+        apart.append(abs(tips[0][0] - tips[1][0]))
+    # They stand 4 apart.
+    assert np.mean(apart) > 4.5
