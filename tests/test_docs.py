@@ -79,3 +79,11 @@ def test_one_version_number():
     cargo = tomllib.loads((ROOT / "Cargo.toml").read_text())["workspace"]["package"]["version"]
     page = json.loads((ROOT / "web/package.json").read_text())["version"]
     assert bioscope.__version__ == cargo == page
+
+
+def test_the_guide_to_growing_plants_runs_as_written():
+    names = {}
+    for block in blocks("docs/guides/grow-plants.md", "python"):
+        exec(compile(block, "grow-plants.md", "exec"), names)
+    assert names["world"].populations["trees"] >= 10
+    assert names["world"].statistics()["trees.segments"] > 100

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 from bioscope.errors import BioscopeError, FormatError, UnknownNameError
 from bioscope.world import World
+from bioscope.worlds import landscape as landscape  # its populations are known to saved worlds
 
 if TYPE_CHECKING:
     from types import ModuleType

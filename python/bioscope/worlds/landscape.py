@@ -2,10 +2,18 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 import bioscope as bio
 from bioscope.populations.place import Disk, Habitat
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+LOAM = (0.11, 0.115, 0.052)
+"""Linear colour of a forest floor in the shade."""
 
 _GRASS = "meadow_grass"
 
@@ -100,3 +108,82 @@ def lawn(world: bio.World, soil: tuple[float, float, float] = (0.13, 0.23, 0.06)
     world.environment.add(
         bio.Current((1.0, 0.0, 0.4), speed=1.0, surge=0.4, turbulence=0.3), "wind"
     )
+
+
+class Sheet(bio.Population):
+    """A surface of points in rows and columns with a linear color each: painted earth.
+
+    Parameters
+    ----------
+    positions
+        Places in metres (rows, columns, 3); rows run upward and columns to the right, as one
+        sees it.
+    colors
+        Linear colors (rows, columns, 3).
+    """
+
+    transient = ("mesh", "material")
+
+    def __init__(self, positions: NDArray[np.float64], colors: NDArray[np.float64]) -> None:
+        self.positions = positions.astype(np.float32)
+        self.colors = colors.astype(np.float32)
+
+    def settle(self) -> int:
+        """Take one identity."""
+        return 1
+
+    def born(self, ids: NDArray[np.uint32]) -> None:
+        """Remember it."""
+        self.ids = ids
+
+    def publish(self, scene: bio.Publication) -> None:
+        """Show the surface."""
+        if getattr(self, "mesh", None) is None:
+            self.mesh = self._mesh()
+            self.material = bio.Material(name="earth", roughness=0.95)
+        places = np.zeros((1, 3), np.float32)
+        scene.instances(
+            "earth", self.mesh, self.material, ids=self.ids, positions=places, alive=False
+        )
+
+    def _mesh(self) -> bio.Mesh:
+        rows, columns, _ = self.positions.shape
+        corner = (np.arange(rows - 1)[:, None] * columns + np.arange(columns - 1)).ravel()
+        first = np.stack([corner, corner + 1, corner + columns], axis=-1)
+        second = np.stack([corner + 1, corner + columns + 1, corner + columns], axis=-1)
+        return bio.Mesh(
+            positions=self.positions.reshape(-1, 3),
+            triangles=np.concatenate([first, second]).astype(np.uint32),
+            colors=self.colors.reshape(-1, 3),
+        )
+
+
+Patch = tuple[tuple[float, float], float]
+"""Place (x, z) and radius in metres."""
+
+
+def floor(bright: Patch, glade: Patch, half: float) -> Sheet:
+    """Return a forest floor with a patch in full light and a half-lit one.
+
+    Parameters
+    ----------
+    bright, glade
+        The two patches.
+    half
+        Half the width of the floor, metres; it fades to the loam around.
+    """
+    axis = np.linspace(-1.02 * half, 1.02 * half, 181)
+    x, z = np.meshgrid(axis, axis)
+    inside = (np.abs(x) < half) & (np.abs(z) < half)
+    light = np.full_like(x, 0.3)
+    for ((px, pz), radius), level in zip((bright, glade), (1.0, 0.6), strict=True):
+        edge = np.clip((radius - np.hypot(x - px, z - pz)) / 0.12 + 0.5, 0.0, 1.0)
+        light = light + (level - light) * edge
+    grain = np.random.default_rng(5).uniform(0.75, 1.25, x.shape)
+    colors = (0.12 + 0.88 * light * grain)[..., None] * np.array([0.36, 0.29, 0.15])
+    fading = np.clip((half - np.hypot(x, z)) / 0.8, 0.0, 1.0)[..., None]
+    colors = colors * fading + np.array(LOAM) * (1 - fading)
+    # Crumbs keep it from being taken for one flat triangle.
+    relief = np.where(inside, 0.016 * (grain - 1.0) + 0.006, -0.05)
+    # The other way round along z, so that it is seen from above.
+    return Sheet(np.stack([x, relief, z], axis=-1)[::-1], colors[::-1])

@@ -68,6 +68,11 @@ impl Area {
         }
     }
 
+    /// Whether what spreads by itself may settle here: within the area; anywhere if it is a list of places.
+    pub(crate) fn is_open_at(&self, x: f32, z: f32) -> bool {
+        matches!(self, Self::Points(_)) || self.contains(x, z)
+    }
+
     /// A place uniform in the area; the `index`-th of a list.
     fn draw(&self, index: usize, random: &mut Random) -> [f32; 2] {
         match self {

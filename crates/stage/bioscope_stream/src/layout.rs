@@ -56,6 +56,8 @@ struct BatchSignature {
     mesh: u64,
     material: u64,
     ids: Vec<Id>,
+    /// Frames do not say how large things are.
+    scales: Vec<f32>,
 }
 
 impl Signature {
@@ -66,6 +68,7 @@ impl Signature {
             mesh: batch.mesh.key.number(),
             material: batch.material.key.number(),
             ids: batch.ids.clone(),
+            scales: batch.transforms.iter().map(|one| one.scale).collect(),
         };
         let points = scene.points.iter().map(|one| (one.name.clone(), one.color, one.glassy));
         Self {

@@ -2,6 +2,7 @@
 
 use bioscope_core::Vec3;
 use glam::DVec3;
+use rayon::prelude::*;
 
 use super::cells::Cells;
 use super::settings::{Settings, bounded};
@@ -9,6 +10,8 @@ use super::{Environment, EnvironmentError, Reply, Request};
 
 /// Light that is dimmed to less than this share counts as none.
 const DARK: f64 = 1e-7;
+/// Balls that one thread takes at a time.
+const SHARE: usize = 512;
 /// Most directions from which light comes.
 const DIRECTIONS: u32 = 8192;
 
@@ -213,11 +216,12 @@ impl SkyLight {
                 sorted.extend(cells.points[range].iter().map(|&ball| shadows[ball as usize]));
                 sorted[start..].sort_by(|a, b| b.depth.total_cmp(&a.depth));
             }
-            for (own, (sum, way)) in shadows.iter().zip(&mut light) {
+            let lit = shadows.par_iter().zip(&mut light).with_min_len(SHARE);
+            lit.for_each(|(own, (sum, way))| {
                 let share = source.share * self.passing(own, &sorted, &cells, largest);
                 *sum += share;
                 *way += direction * share;
-            }
+            });
         }
         light
     }

@@ -60,12 +60,12 @@ impl Stand {
             .map(|(plant, look)| {
                 if plant.progress.step() >= steps {
                     if !std::mem::take(&mut plant.young).is_empty() {
-                        *look = None;
+                        outdate(look);
                     }
                     return Ok(Vec::new());
                 }
                 let shed = plant.rewrite(models.of(plant.source), space, unfolds)?;
-                *look = None;
+                outdate(look);
                 Ok(shed.into_iter().map(|one| (plant.source, one)).collect())
             })
             .collect();
@@ -125,7 +125,7 @@ impl Stand {
     fn note_pruned(&mut self, number: usize, modules: usize) {
         if modules > 0 {
             let who = self.state.plants[number].id;
-            self.looks[number] = None;
+            outdate(&mut self.looks[number]);
             self.state.news.push(News::Pruned { who, modules: modules as u32 });
         }
     }
@@ -163,7 +163,7 @@ impl Stand {
             let grows = draw < options.parameters.germination
                 && taken.len() < options.most
                 && is_dry
-                && options.habitat.area.contains(seed.to.x, seed.to.z)
+                && options.habitat.area.is_open_at(seed.to.x, seed.to.z)
                 && taken.iter().all(free);
             if grows {
                 taken.push(seed.to);
@@ -214,7 +214,7 @@ impl Stand {
             let plant = &mut self.state.plants[number];
             let model = self.models.of(plant.source);
             if plant.bite(model, &self.state.space, mouth)? > 0 {
-                self.looks[number] = None;
+                outdate(&mut self.looks[number]);
                 self.state.news.push(News::Eaten { who, into });
             }
         }
@@ -235,17 +235,28 @@ impl Stand {
         let State { options, part, done, plants, .. } = &mut self.state;
         let (joints, models, count) = (options.joints, &self.models, plants.len().max(1));
         let plants = plants.par_iter_mut().zip(&mut self.looks).enumerate();
-        let changed = plants.filter(|(_, (plant, look))| look.is_none() || !plant.young.is_empty());
+        let changed = plants.filter(|(_, (plant, look))| is_stale(look) || !plant.young.is_empty());
         changed.try_for_each(|(number, (plant, look))| {
             // How much of a step has gone by since it was rewritten.
             let late = if number >= *done { 1.0 } else { 0.0 };
             let share = *part + late - (number + 1) as f64 / count as f64;
-            let own = Look::of(plant, models.of(plant.source), joints, share as f32)?;
+            let before = look.as_ref().map(|look| look.mesh.clone());
+            let own = Look::of(plant, models.of(plant.source), joints, share as f32, before)?;
             plant.sprouted |= !own.is_empty();
             plant.bare = plant.sprouted && own.is_empty();
             *look = Some(own);
             Ok(())
         })
+    }
+}
+
+fn is_stale(look: &Option<Look>) -> bool {
+    look.as_ref().is_none_or(|look| look.stale)
+}
+
+fn outdate(look: &mut Option<Look>) {
+    if let Some(look) = look {
+        look.stale = true;
     }
 }
 

@@ -51,12 +51,25 @@ pub(super) struct Look {
     pub length: f32,
     /// How many segments it has.
     pub segments: usize,
+    /// Whether the plant has changed since.
+    pub stale: bool,
 }
 
 impl Look {
-    /// The look of a plant; `share` of the last step has gone by.
-    pub fn of(plant: &Plant, model: &Model, joints: u32, share: f32) -> Result<Self> {
+    /// The look of a plant; `share` of the last step has gone by. Wood that looks as it did before stays the same
+    /// mesh, so that observers need not take it in again.
+    pub fn of(
+        plant: &Plant,
+        model: &Model,
+        joints: u32,
+        share: f32,
+        before: Option<Arc<Mesh>>,
+    ) -> Result<Self> {
         let mut drawn = plant.drawn(model)?;
+        for segment in &mut drawn.segments {
+            segment.start_radius = stepped(segment.start_radius);
+            segment.end_radius = stepped(segment.end_radius);
+        }
         if !plant.young.is_empty() {
             drawn.unfold(&plant.young, math::smoothstep(-0.05, 1.0, share));
         }
@@ -68,7 +81,13 @@ impl Look {
         let joints = Bend::of(&shape);
         let leaves = held.into_iter().filter_map(leaf).collect();
         let (height, length) = (shape.height, shape.length);
-        Ok(Self { mesh: Arc::new(shape.mesh), joints, rests, leaves, height, length, segments })
+        let mut mesh = shape.mesh;
+        mesh.uvs.clear();
+        let mesh = match before {
+            Some(before) if is_same(&before, &mesh) => before,
+            _ => Arc::new(mesh),
+        };
+        Ok(Self { mesh, joints, rests, leaves, height, length, segments, stale: false })
     }
 
     /// Whether there is nothing to be seen.
@@ -95,6 +114,22 @@ impl Look {
         }
         Transform::new(position, turn.1 * leaf.place.rotation(), leaf.place.scale)
     }
+}
+
+/// A radius in steps of four per cent, which nobody sees.
+fn stepped(radius: f32) -> f32 {
+    if radius > 0.0 { math::exp((math::ln(radius) * 24.0).round() / 24.0) } else { radius }
+}
+
+fn is_same(one: &Mesh, other: &Mesh) -> bool {
+    let joints = |mesh: &Mesh| {
+        let skin = mesh.skin.as_ref();
+        skin.map(|skin| skin.joints.iter().map(|joint| joint.rest).collect::<Vec<_>>())
+    };
+    one.positions == other.positions
+        && one.triangles == other.triangles
+        && one.colors == other.colors
+        && joints(one) == joints(other)
 }
 
 fn leaf(held: Held) -> Option<Leaf> {
