@@ -174,7 +174,7 @@ def floor(bright: Patch, glade: Patch, half: float) -> Sheet:
     """
     axis = np.linspace(-1.02 * half, 1.02 * half, 181)
     x, z = np.meshgrid(axis, axis)
-    inside = (np.abs(x) < half) & (np.abs(z) < half)
+    inside = np.hypot(x, z) < half
     light = np.full_like(x, 0.3)
     for ((px, pz), radius), level in zip((bright, glade), (1.0, 0.6), strict=True):
         edge = np.clip((radius - np.hypot(x - px, z - pz)) / 0.12 + 0.5, 0.0, 1.0)
