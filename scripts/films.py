@@ -18,8 +18,8 @@ from bioscope.film.renderer import renderer
 FOLDER = Path(__file__).resolve().parents[1] / "docs/films"
 SIZE = (1280, 720)
 MOMENTS = {
-    "go_fish": (13.5, 18.0),
-    "jack_cousto": (10.0, 26.0),
+    "go_fish": (14.4, 17.5),
+    "jack_cousto": (9.5, 24.0),
     "mating": (10.0, 36.0),
     "preying": (6.0, 15.5),
     "schooling": (8.0, 18.5),

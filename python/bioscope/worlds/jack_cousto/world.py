@@ -26,17 +26,18 @@ def world(seed: int) -> bio.World:
     bay.add(bio.Plankton(1200, low=(-3.5, -5.4, -3.0), high=(3.5, -2.0, 3.5)))
     cameras = bay.cameras
     cameras.fixed("bay", position=(0.5, -4.6, 2.9), target=(0.2, -4.25, 0.0), field_of_view=50)
-    cameras.follow("pair", species="clownfish", offset=(3.0, 0.6, 2.0), field_of_view=44)
+    cameras.fixed("pair", position=(0.9, -4.56, 2.3), target=(0.72, -4.55, 1.7), field_of_view=38)
     cameras.follow("school", species=_PREY, index=4, offset=(3.0, 0.5, 3.0), field_of_view=46)
     cameras.follow("shark", species=_SHARK, offset=(1.0, 0.25, 0.9), field_of_view=48)
     cameras.follow("feeders", species="anthias", index=2, offset=(3.0, 0.4, 2.5))
     bay.shots = [
-        ("bay", 8.0),
-        ("pair", 6.0),
-        ("feeders", 4.0),
+        ("bay", 6.0),
+        ("pair", 7.0),
+        ("school", 4.0),
         ("shark", 5.0),
-        ("school", 5.0),
-        ("bay", 12.0),
+        ("pair", 4.0),
+        ("feeders", 4.0),
+        ("bay", 8.0),
     ]
     return bay
 
