@@ -9,7 +9,7 @@ PAGE := python/bioscope/live/page/index.html
 RUST_SOURCES := Cargo.toml Cargo.lock pyproject.toml $(shell find crates -type f -not -path '*/tests/*' -not -path '*/examples/*')
 WEB_SOURCES := $(shell find web -type f -not -path '*/node_modules/*' -not -path '*/dist/*' 2>/dev/null)
 
-.PHONY: help setup demo live test test-rust test-python test-web lint bench docs wheel format clean chromium
+.PHONY: help setup demo live test test-rust test-fuzz test-python test-web lint bench docs wheel format clean chromium
 
 help: ## list these words
 	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -24,10 +24,13 @@ demo: setup ## make reef.mp4: ten seconds of the living reef, with sound
 live: setup ## open the reef live in the browser
 	@$(BIN)/bioscope live reef --seed 7
 
-test: test-rust test-python test-web ## run every test
+test: test-rust test-fuzz test-python test-web ## run every test
 
 test-rust:
 	cargo test --workspace --quiet
+
+test-fuzz: ## feed the readers of files with random bytes, for some seconds each
+	scripts/fuzz.sh 5
 
 test-python: setup chromium
 	$(BIN)/python -m pytest

@@ -1,6 +1,7 @@
 """Figures of L-systems: modules per second of three models on one core, and memory."""
 
 import resource
+import subprocess
 import time
 from collections.abc import Iterator
 from pathlib import Path
@@ -9,6 +10,9 @@ from bioscope import LSystem
 from bioscope.bench import Figure
 
 MODELS = Path(__file__).parent / "lsystem"
+PEER = Path(__file__).parent / "symbios" / "Cargo.toml"
+PEER_SECONDS = 900.0
+"""How long building the peer and deriving a model with it may take."""
 # Measured with cpfg on one core of such a machine; it cannot be installed from a registry.
 REFERENCE = {"a": 147e6, "b": 22e6, "c": 12.7e6}
 
@@ -49,9 +53,31 @@ def lsystems() -> Iterator[Figure]:
 
 
 def figure(name: str, speed: float, unit: str, target: float, note: str) -> Figure:
-    """Return one figure beside that of cpfg."""
+    """Return one figure beside that of cpfg, and of the crate symbios in the same run."""
     note = f"{speed / REFERENCE[name]:.1f} times the {REFERENCE[name] / 1e6:g} M of cpfg; {note}"
-    return Figure(f"lsystem.{name}", speed, unit, target=target, better="higher", note=note)
+    peer = symbios(name)
+    return Figure(
+        f"lsystem.{name}",
+        speed,
+        unit,
+        target=target,
+        better="higher",
+        peer="symbios" if peer is not None else None,
+        peer_value=peer,
+        note=note,
+    )
+
+
+def symbios(name: str) -> float | None:
+    """Return the speed of the crate symbios with the same model; None if it cannot be built."""
+    command = ["cargo", "run", "--release", "--quiet", "--manifest-path", str(PEER), "--", name]
+    try:
+        done = subprocess.run(
+            command, capture_output=True, text=True, check=True, timeout=PEER_SECONDS
+        )
+    except (OSError, subprocess.SubprocessError):
+        return None
+    return float(done.stdout)
 
 
 BENCHMARKS = {"lsystem": lsystems}

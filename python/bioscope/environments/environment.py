@@ -35,6 +35,8 @@ class Environment:
     _inner: _engine.Environment | None = None
     _asked: dict[str, Any] | None = None
     """What the engine makes it from, where it is one of the engine's: name, settings, map."""
+    fields: tuple[str, ...] | None = None
+    """Which parts of the messages are sent, so that no more is told than needed; None is all."""
 
     def exchange(self, step: int, messages: dict[str, NDArray[Any]]) -> NDArray[np.float32] | None:
         """Answer the messages of one string, in its order.
@@ -45,7 +47,9 @@ class Environment:
             Derivation step, 0 for the axiom.
         messages
             Arrays with a row per message: `parameters` (n, k; what shorter messages lack is not a
-            number), `positions`, `headings`, `lefts`, `ups` (n, 3), `widths` and `modules` (n,).
+            number), `positions`, `headings`, `lefts`, `ups` (n, 3), `widths`, `modules` (n,), and
+            `following`: the module after each message as (symbol, numbers), None at the end of a
+            branch. Only those that `fields` names, if it does.
 
         Returns
         -------

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -12,6 +13,8 @@ if TYPE_CHECKING:
 
     import numpy as np
     from numpy.typing import NDArray
+
+    from bioscope.lsystem.turtle import ViewFile
 
 
 class LSystem:
@@ -53,7 +56,22 @@ class LSystem:
     def read(cls, path: str | PathLike[str]) -> LSystem:
         """Read a model from a file, which may include others of its folder."""
         text = Path(path).read_text(encoding="utf-8", errors="replace")
+        if Path(path).suffix == ".lm":
+            return cls.from_definition(text, str(path))
         return cls(text, str(path), Path(path).parent)
+
+    @classmethod
+    def from_definition(cls, text: str, file: str = "<text>.lm") -> LSystem:
+        """Read a definition file of a behavioral L-system (.lm), see `docs/reference/lsystem.md`.
+
+        Raises
+        ------
+        FormatError
+            If it is wrong, or a rule depends on actors, particles, senses, memories or cuts.
+        """
+        from bioscope.lsystem.definition import translated
+
+        return cls(translated(text, file), f"{file} in our own notation.lsys")
 
     @property
     def steps(self) -> int:
@@ -88,9 +106,12 @@ class LSystem:
             Of the random numbers. Without one, a file of the cpfg dialect gives the string of the
             reference program, whatever the `seed:` line of the file says.
         **options
-            `environment` (a name with parameters, as "leaf_discs rho=0.89", or an .e file),
-            `view` (a .v file, for functions and the turtle), `folder` (where the model may read
-            and write files), `seconds` (after which it is stopped), `threads` (False for one).
+            `environment` (one of `bio.environments`, which keeps its state, or a name with
+            parameters, as "leaf_discs rho=0.89", or an .e file), `view` (a `ViewFile` or the path
+            of one, for functions and the turtle), `start` (a string of this model in place of its
+            axiom), `time` (seconds of a timed model, in place of steps; any time, so that growth
+            can be shown continuously), `folder` (where the model may read and write files),
+            `seconds` (after which it is stopped), `threads` (False for one).
 
         Raises
         ------
@@ -100,7 +121,40 @@ class LSystem:
         UnknownNameError
             For an unknown option.
         """
-        return ModuleString(self._engine.derive(steps, seed, **options))
+        return ModuleString(self._engine.derive(steps, seed, **_for_engine(options)))
+
+
+def _for_engine(options: dict[str, Any]) -> dict[str, Any]:
+    """Return the options with what the engine knows in place of our own objects."""
+    inner = {"environment": "engine", "view": "_engine", "start": "_engine"}
+    return {
+        name: getattr(value, inner[name], value) if name in inner else value
+        for name, value in options.items()
+    }
+
+
+@dataclass(frozen=True, slots=True)
+class Fragment:
+    """One of the words that a string falls into, and where it grows on."""
+
+    word: ModuleString
+    """Its modules; `derive(start=word)` lets it grow on alone."""
+    position: tuple[float, ...]
+    """Where the turtle was at the break, metres."""
+    heading: tuple[float, ...]
+    """Where it looked."""
+    up: tuple[float, ...]
+    """What was up for it."""
+    width: float
+    """Width of its strokes, metres."""
+    color: int
+    """Number of its colour."""
+
+    @property
+    def stance(self) -> dict[str, Any]:
+        """Options of a `Turtle` that goes on from the break."""
+        names = ("position", "heading", "up", "width", "color")
+        return {name: getattr(self, name) for name in names}
 
 
 class ModuleString:
@@ -119,6 +173,30 @@ class ModuleString:
     def appearance(self) -> ModuleString:
         """Return the string after the model's homomorphism, as the turtle reads it."""
         return ModuleString(self._engine.appearance())
+
+    def fragments(self, dead: str, view: ViewFile | None = None, **options: Any) -> list[Fragment]:
+        """Return the words that the string falls into at the modules `dead`, which are left out.
+
+        What stands above a dead module in its branch becomes a word of its own, which begins where
+        the turtle is after it has obeyed the dead module.
+
+        Parameters
+        ----------
+        dead
+            Symbol of the dead modules, of any number of parameters.
+        view, **options
+            How the turtle walks, as for `bioscope.Turtle`.
+        """
+        found = self._engine.fragments(dead, options, view._engine if view is not None else None)
+        return [
+            Fragment(ModuleString(word), tuple(at), tuple(heading), tuple(up), width, color)
+            for word, at, heading, up, width, color in found
+        ]
+
+    @property
+    def ids(self) -> NDArray[np.uint64]:
+        """Identity of each module of a timed model, which it has for life; empty for others."""
+        return self._engine.ids
 
     @property
     def output(self) -> str:

@@ -113,6 +113,38 @@ class ViewFile:
         return self._engine.function(number, x)
 
 
+class AnimateFile:
+    """An animate file of cpfg (.a): which steps of a model are shown.
+
+    Raises
+    ------
+    FormatError
+        If the file cannot be read. What is not understood in it is in `warnings`.
+    """
+
+    def __init__(self, path: str | PathLike[str]) -> None:
+        self._engine = _engine.AnimateFile(path)
+
+    @property
+    def warnings(self) -> list[str]:
+        """What was not understood, with file and line."""
+        return self._engine.warnings
+
+    @property
+    def switches(self) -> list[str]:
+        """Names of what is switched on, such as `clear between frames`."""
+        return self._engine.switches
+
+    @property
+    def swap_interval(self) -> int:
+        """How long each frame stays, in refreshes of a screen."""
+        return self._engine.swap_interval
+
+    def frames(self, length: int) -> list[int]:
+        """Return the steps that are shown; `length` is the last if the file does not say."""
+        return self._engine.frames(length)
+
+
 def read_colors(path: str | PathLike[str]) -> list[tuple[float, float, float]]:
     """Return the linear colours of a color map (.map) or material file (.mat).
 
@@ -190,6 +222,28 @@ class Interpretation:
         return self._engine.mesh(sides, palette, texture)
 
 
+@dataclass(frozen=True, slots=True)
+class SharedPart:
+    """A branch that occurs more than once, and all its places."""
+
+    drawn: Interpretation
+    """What it looks like, its base at the origin, heading +Y."""
+    positions: NDArray[np.float32]
+    """Where it stands (n, 3), metres."""
+    rotations: NDArray[np.float32]
+    """How it is turned there: unit quaternions x, y, z, w (n, 4)."""
+
+
+@dataclass(frozen=True, slots=True)
+class SharedPlant:
+    """A plant whose equal branches are drawn once."""
+
+    rest: Interpretation
+    """What occurs once."""
+    parts: list[SharedPart]
+    """The branches that occur more often."""
+
+
 class Turtle:
     """Draws strings; starts at the origin, heading up (+Y).
 
@@ -198,9 +252,10 @@ class Turtle:
     view
         A view file, or its path: how cpfg would draw.
     **options
-        `step` (m), `angle` (degrees; the file's if it says one), `width` (m), `width_step` (m),
-        `color`, `color_step`, `scale`, `scale_step`, `slash_rolls_right`, `tropism` (direction),
-        `susceptibility` (radians), `tapered`, `cpfg` (whether symbols mean what they mean to cpfg).
+        `position`, `heading`, `up` (where it starts), `step` (m), `angle` (degrees; the file's if
+        it says one), `width` (m), `width_step` (m), `color`, `color_step`, `scale`, `scale_step`,
+        `slash_rolls_right`, `tropism` (direction), `susceptibility` (radians), `tapered`, `cpfg`
+        (whether symbols mean what they mean to cpfg).
     """
 
     def __init__(self, view: ViewFile | str | PathLike[str] | None = None, **options: Any) -> None:
@@ -219,3 +274,18 @@ class Turtle:
         """
         view = self._view._engine if self._view is not None else None
         return Interpretation(_engine.interpret(string._engine, self._options, view))
+
+    def share(self, string: ModuleString) -> SharedPlant:
+        """Return what the string draws, equal branches drawn once and placed many times.
+
+        Raises
+        ------
+        UnknownNameError
+            For an unknown option.
+        LimitError
+            If it draws more than fits.
+        """
+        view = self._view._engine if self._view is not None else None
+        rest, parts = _engine.share(string._engine, self._options, view)
+        shared = [SharedPart(Interpretation(drawn), at, turned) for drawn, at, turned in parts]
+        return SharedPlant(Interpretation(rest), shared)

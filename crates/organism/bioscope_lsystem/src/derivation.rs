@@ -7,9 +7,11 @@
 //! Files of the cpfg dialect that are derived without a seed give the strings of the reference
 //! program: they draw from its streams, module after module. With a seed they use ours.
 
+mod cuts;
 mod error;
 mod exchange;
 mod expansion;
+mod fragments;
 mod options;
 mod parallel;
 mod pass;
@@ -21,8 +23,11 @@ use std::{
     time::{Duration, Instant},
 };
 
+use cuts::without_cut_branches;
 pub use error::{DerivationError, Limits};
+pub use fragments::Fragment;
 pub use options::DerivationOptions;
+use parallel::Space;
 use pass::{Layer, Made, Task};
 pub use progress::{Placed, Progress};
 
@@ -108,6 +113,7 @@ pub struct Derivation<'a> {
     machine: Machine,
     options: DerivationOptions,
     operations: u64,
+    space: Space,
     deadline: Option<Instant>,
     arities: [u8; 256],
     /// Of a timed model: identities of the modules, seconds so far, and of the next step.
@@ -130,14 +136,28 @@ impl<'a> Derivation<'a> {
         for part in &system.systems {
             derivation.block(&part.blocks.start, "start:")?;
         }
-        let axiom = &system.axiom;
-        derivation.string.kinds.extend_from_slice(&axiom.kinds);
-        derivation.machine.run(&axiom.program, &mut derivation.string.parameters);
-        derivation.examine("axiom:")?;
+        derivation.take_axiom()?;
         derivation.identify();
         derivation.exchange()?;
         derivation.remember();
         Ok(derivation)
+    }
+
+    /// Begins with the axiom of the file, or with the string that stands in its place.
+    fn take_axiom(&mut self) -> Derived<()> {
+        if let Some(start) = self.options.start.take() {
+            if start.alphabet.kinds() != self.system.alphabet.kinds() {
+                let what = "the string to start with is one of another model";
+                return Err(self.fault(what.into(), "axiom:"));
+            }
+            self.string.kinds = start.kinds;
+            self.string.parameters = start.parameters;
+            return Ok(());
+        }
+        let axiom = &self.system.axiom;
+        self.string.kinds.extend_from_slice(&axiom.kinds);
+        self.machine.run(&axiom.program, &mut self.string.parameters);
+        self.examine("axiom:")
     }
 
     fn begin(system: &'a LSystem, mut options: DerivationOptions) -> Self {
@@ -161,6 +181,7 @@ impl<'a> Derivation<'a> {
             step: 0,
             machine,
             operations: 0,
+            space: Space::default(),
             deadline: options.seconds.map(|seconds| {
                 // A day is as good as for ever, and cannot overflow.
                 Instant::now() + Duration::from_secs_f64(seconds.clamp(0.0, 86_400.0))
@@ -224,9 +245,10 @@ impl<'a> Derivation<'a> {
             let set = self.table(&system.systems[0])?;
             self.grow_older(timing, set)?;
         } else {
-            let next = self.rewritten()?;
-            self.string.kinds = next.kinds;
-            self.string.parameters = next.parameters;
+            let mut next = self.rewritten()?;
+            std::mem::swap(&mut self.string.kinds, &mut next.kinds);
+            std::mem::swap(&mut self.string.parameters, &mut next.parameters);
+            self.space.whole = next;
         }
         for part in &self.system.systems {
             self.block(&part.blocks.end_each, "endEach:")?;
@@ -289,20 +311,23 @@ impl<'a> Derivation<'a> {
         let looked = self.operations + STEP_COST;
         let (made, looked) = match self.system.systems[0].order {
             Order::Parallel => {
-                parallel::rewrite(task, &mut self.machine, looked, self.options.threads)?
+                let threads = self.options.threads;
+                parallel::rewrite(task, &mut self.machine, looked, threads, &mut self.space)?
             }
             Order::Leftmost => {
                 let only = Task { only: Some(0), ..task };
-                parallel::one_after_the_other(only, &mut self.machine, looked)?
+                parallel::one_after_the_other(only, &mut self.machine, looked, Made::default())?
             }
             Order::Random => {
                 let count = Task { only: Some(u64::MAX - 1), ..task };
+                let out = Made::default();
                 let (counted, looked) =
-                    parallel::one_after_the_other(count, &mut self.machine, looked)?;
+                    parallel::one_after_the_other(count, &mut self.machine, looked, out)?;
                 let draw = self.machine.random.choice(usize::MAX, task.tick);
                 let only = Some((draw * counted.applied as f64) as u64);
                 let only = Task { only, ..task };
-                parallel::one_after_the_other(only, &mut self.machine, looked)?
+                let out = counted;
+                parallel::one_after_the_other(only, &mut self.machine, looked, out)?
             }
         };
         self.operations = looked;
@@ -367,8 +392,12 @@ impl<'a> Derivation<'a> {
             noted,
             only: None,
         };
-        let (made, looked) =
-            parallel::one_after_the_other(task, &mut self.machine, self.operations)?;
+        let (made, looked) = parallel::one_after_the_other(
+            task,
+            &mut self.machine,
+            self.operations,
+            Made::default(),
+        )?;
         self.operations = looked;
         let mut shown = ModuleString::new(self.system.alphabet.clone());
         shown.kinds = made.kinds;
@@ -410,29 +439,4 @@ impl<'a> Derivation<'a> {
             self.string.memory = Some(Arc::new(self.machine.memory(self.step)));
         }
     }
-}
-
-/// The string without what follows each `%` up to the end of its branch.
-fn without_cut_branches(string: &ModuleString) -> ModuleString {
-    let mut kept = ModuleString::new(string.alphabet.clone());
-    let mut parameter = 0;
-    let mut depth_of_cut = None;
-    let mut depth = 0_i64;
-    for &kind in &string.kinds {
-        let arity = string.alphabet.kinds()[kind as usize].arity as usize;
-        depth += i64::from(kind == Alphabet::OPEN) - i64::from(kind == Alphabet::CLOSE);
-        if depth_of_cut.is_some_and(|cut| depth < cut) {
-            depth_of_cut = None;
-        }
-        let is_cut = matches!(kind, Alphabet::CUT | Alphabet::REPORTED_CUT);
-        if is_cut && depth_of_cut.is_none() {
-            depth_of_cut = Some(depth);
-        }
-        if depth_of_cut.is_none() {
-            kept.kinds.push(kind);
-            kept.parameters.extend_from_slice(&string.parameters[parameter..parameter + arity]);
-        }
-        parameter += arity;
-    }
-    kept
 }

@@ -23,7 +23,9 @@ mod source;
 mod string;
 mod turtle;
 
-pub use derivation::{Derivation, DerivationError, DerivationOptions, Limits, Placed, Progress};
+pub use derivation::{
+    Derivation, DerivationError, DerivationOptions, Fragment, Limits, Placed, Progress,
+};
 pub use diagnostic::{Diagnostic, Diagnostics, Place};
 pub use environment::{
     Collision, Competition, Density, DensityVoxels, Environment, EnvironmentError, Following,

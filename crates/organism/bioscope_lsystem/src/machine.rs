@@ -120,6 +120,27 @@ pub(crate) enum Instruction {
     Emit {
         from: Register,
     },
+    /// Appends a sum.
+    EmitSum {
+        a: Register,
+        b: Register,
+    },
+    /// Appends a difference.
+    EmitDifference {
+        a: Register,
+        b: Register,
+    },
+    /// Appends a product.
+    EmitProduct {
+        a: Register,
+        b: Register,
+    },
+    /// Appends a × b + c, both operations rounded.
+    EmitProductSum {
+        a: Register,
+        b: Register,
+        c: Register,
+    },
     /// Multiplies a place in an array by the length of the next dimension and adds an index.
     Index {
         to: Register,
@@ -299,6 +320,36 @@ impl Program {
     pub fn is_random(&self) -> bool {
         self.0.iter().any(|step| matches!(step, Instruction::Call { call, .. } if call.is_random()))
     }
+}
+
+/// Ends the computation of a parameter, which begins at `first`, by appending what is in `from`;
+/// the operations that lead there and nowhere else are made one with that.
+pub(crate) fn end_with_emission(code: &mut Vec<Instruction>, first: usize, from: Register) {
+    let own = &code[first..];
+    let is_temporary = |register: Register| (TEMPORARIES..GLOBALS).contains(&(register as usize));
+    // A jump might lead between them.
+    let may_fuse = is_temporary(from) && !own.iter().any(Instruction::jumps);
+    let (count, emission) = match (may_fuse, own) {
+        (
+            true,
+            [.., Instruction::Multiply { to: product, a, b }, Instruction::Add { to, a: x, b: y }],
+        ) if *to == from && is_temporary(*product) && (x == product) != (y == product) => {
+            let c = if x == product { *y } else { *x };
+            (2, Instruction::EmitProductSum { a: *a, b: *b, c })
+        }
+        (true, [.., Instruction::Add { to, a, b }]) if *to == from => {
+            (1, Instruction::EmitSum { a: *a, b: *b })
+        }
+        (true, [.., Instruction::Subtract { to, a, b }]) if *to == from => {
+            (1, Instruction::EmitDifference { a: *a, b: *b })
+        }
+        (true, [.., Instruction::Multiply { to, a, b }]) if *to == from => {
+            (1, Instruction::EmitProduct { a: *a, b: *b })
+        }
+        _ => (0, Instruction::Emit { from }),
+    };
+    code.truncate(code.len() - count);
+    code.push(emission);
 }
 
 /// A condition whose comparisons end it as soon as one fails. `one` is a register that holds 1.
@@ -531,6 +582,14 @@ impl Machine {
                 Instruction::Greater { to, a, b } => self.set(to, truth(self.get(a) > self.get(b))),
                 Instruction::Equal { to, a, b } => self.set(to, truth(self.get(a) == self.get(b))),
                 Instruction::Emit { from } => out.push(self.get(from) as f32),
+                Instruction::EmitSum { a, b } => out.push((self.get(a) + self.get(b)) as f32),
+                Instruction::EmitDifference { a, b } => {
+                    out.push((self.get(a) - self.get(b)) as f32);
+                }
+                Instruction::EmitProduct { a, b } => out.push((self.get(a) * self.get(b)) as f32),
+                Instruction::EmitProductSum { a, b, c } => {
+                    out.push((self.get(a) * self.get(b) + self.get(c)) as f32);
+                }
                 Instruction::Require { comparison, a, b } => {
                     if !comparison.holds(self.get(a), self.get(b)) {
                         return 0.0;

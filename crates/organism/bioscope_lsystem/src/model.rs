@@ -108,6 +108,8 @@ pub(crate) struct Production {
     pub slots: usize,
     /// Whether it replaces one module, whose parameters it leaves where they are bound.
     pub keeps_parameters: bool,
+    /// Whether it replaces one module, without context, weight and random numbers.
+    pub is_simple: bool,
     /// Whether it draws random numbers, beside those that choose it.
     pub is_random: bool,
     pub place: Place,
@@ -282,6 +284,11 @@ impl LSystem {
     /// Number of steps after which the model is complete, as the file says; 0 if it does not.
     pub fn derivation_length(&self) -> u32 {
         self.derivation_length
+    }
+
+    /// Seconds per step of a timed model (`timed:`).
+    pub fn seconds_per_step(&self) -> Option<f64> {
+        self.timing.as_ref().map(|timing| timing.step)
     }
 
     /// Degrees of `+`, `&`, `/` … without parameter, if the file says so (`angle:`).

@@ -1,7 +1,7 @@
 //! The turtle: walks along a string of modules and leaves a plant behind.
 //!
-//! It has a place, three axes (heading H, left L, up U, with H × L = U), a width and a color. It starts at
-//! the origin with H up, L towards −X and U towards +Z. Angles are degrees, lengths metres.
+//! It has a place, three axes (heading H, left L, up U, with H × L = U), a width and a color. Unless the options
+//! say else it starts at the origin with H up, L towards −X and U towards +Z. Angles are degrees, lengths metres.
 //!
 //! | symbol | what the turtle does |
 //! |---|---|
@@ -160,6 +160,11 @@ impl<'a> Turtle<'a> {
         }
         self.obey(command, parameters);
         self.check()
+    }
+
+    /// Its place and its axes with H × L up, as [`TurtleOptions`] take them.
+    pub(crate) fn standing(&self) -> (Vec3, Frame) {
+        (self.state.position.as_vec3(), self.state.axes.rounded())
     }
 
     /// Where it is now.

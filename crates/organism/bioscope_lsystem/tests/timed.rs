@@ -140,3 +140,13 @@ fn modules_that_are_reborn_at_once_do_not_hang() {
     let mut derivation = Derivation::with_options(&system, options).unwrap();
     derivation.pass(1.0).unwrap_err();
 }
+
+#[test]
+fn homomorphism_sees_what_growth_lets_a_module_show() {
+    let text = "timed: 1\nmodules: p(x), q\ngrowth: p = 6*x*age, x\naxiom: p(2)q\n\
+        p1: p(x) after 9 --> q\nhomomorphism\np(length, width) --> !(width)F(length)\nq --> @O(age)";
+    let system = LSystem::parse(text, "shown.lsys").unwrap();
+    assert!(system.warnings().is_empty(), "{:?}", system.warnings());
+    let string = system.derive(3, 0).unwrap();
+    assert_eq!(system.appearance(&string, 0).unwrap().to_string(), "!(2)F(36)@O(3)");
+}

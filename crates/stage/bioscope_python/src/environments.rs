@@ -10,7 +10,7 @@ use numpy::{IntoPyArray, PyArrayMethods, PyReadonlyArray2};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::arrays::{self, Array2, Floats};
+use crate::arrays::{self, Floats};
 use crate::error::to_python;
 use crate::lsystem::{LSystem, ModuleString};
 use crate::turtle::ViewFile;
@@ -197,12 +197,83 @@ pub fn derive_in(
     Ok(ModuleString::derived(string, own, seed))
 }
 
+/// The parameters of all messages, those that shorter ones lack not a number, and how many the longest has.
+fn table(requests: &[Request]) -> (Vec<f32>, usize) {
+    let widest = requests.iter().map(|one| one.parameters.len()).max().unwrap_or(0);
+    let mut table = vec![f32::NAN; requests.len() * widest];
+    for (row, request) in requests.iter().enumerate() {
+        let own = request.parameters;
+        table[row * widest..row * widest + own.len()].copy_from_slice(own);
+    }
+    (table, widest)
+}
+
 /// An environment written in Python.
 struct Callback {
     environment: Py<PyAny>,
 }
 
+const FIELDS: [&str; 8] =
+    ["parameters", "positions", "headings", "lefts", "ups", "widths", "modules", "following"];
+
 impl Callback {
+    /// What the environment is told: those of [`FIELDS`] that it names in its attribute `fields`, or all.
+    fn messages<'py>(&self, py: Python<'py>, requests: &[Request]) -> PyResult<Bound<'py, PyDict>> {
+        let count = requests.len();
+        let named = self.environment.bind(py).getattr_opt("fields")?;
+        let wanted: Option<Vec<String>> = match named {
+            Some(fields) => fields.extract()?,
+            None => None,
+        };
+        let unknown = wanted.iter().flatten().find(|name| !FIELDS.contains(&name.as_str()));
+        if let Some(name) = unknown {
+            return Err(to_python(Error::Unknown {
+                kind: "field of a message",
+                name: name.clone(),
+                known: FIELDS.map(str::to_owned).to_vec(),
+            }));
+        }
+        let points = |of: fn(&Request) -> Vec3| -> PyResult<Bound<'py, PyAny>> {
+            let all: Vec<Vec3> = requests.iter().map(of).collect();
+            let floats = all.as_slice().as_flattened_floats().to_vec();
+            Ok(floats.into_pyarray(py).reshape([count, 3])?.into_any())
+        };
+        let messages = PyDict::new(py);
+        for name in FIELDS {
+            if wanted.as_ref().is_some_and(|fields| !fields.iter().any(|field| field == name)) {
+                continue;
+            }
+            let field = match name {
+                "parameters" => {
+                    let (numbers, widest) = table(requests);
+                    numbers.into_pyarray(py).reshape([count, widest])?.into_any()
+                }
+                "positions" => points(|one| one.position)?,
+                "headings" => points(|one| one.heading)?,
+                "lefts" => points(|one| one.left)?,
+                "ups" => points(|one| one.up)?,
+                "widths" => {
+                    let widths: Vec<f32> = requests.iter().map(|one| one.width).collect();
+                    widths.into_pyarray(py).into_any()
+                }
+                "modules" => {
+                    let modules: Vec<u64> = requests.iter().map(|one| one.module as u64).collect();
+                    modules.into_pyarray(py).into_any()
+                }
+                _ => {
+                    let following: Vec<Option<(&str, Vec<f32>)>> = requests
+                        .iter()
+                        .map(|one| one.following.as_ref())
+                        .map(|next| next.map(|next| (next.symbol, next.parameters.to_vec())))
+                        .collect();
+                    following.into_pyobject(py)?.into_any()
+                }
+            };
+            messages.set_item(name, field)?;
+        }
+        Ok(messages)
+    }
+
     fn call(
         &self,
         py: Python<'_>,
@@ -211,27 +282,7 @@ impl Callback {
         replies: &mut [Reply],
     ) -> PyResult<()> {
         let count = requests.len();
-        let widest = requests.iter().map(|one| one.parameters.len()).max().unwrap_or(0);
-        let mut parameters = vec![f32::NAN; count * widest];
-        for (row, request) in requests.iter().enumerate() {
-            let own = request.parameters;
-            parameters[row * widest..row * widest + own.len()].copy_from_slice(own);
-        }
-        let points = |of: fn(&Request) -> Vec3| -> PyResult<Array2<'_, f32>> {
-            let all: Vec<Vec3> = requests.iter().map(of).collect();
-            all.as_slice().as_flattened_floats().to_vec().into_pyarray(py).reshape([count, 3])
-        };
-        let messages = PyDict::new(py);
-        let parameters = parameters.into_pyarray(py).reshape([count, widest])?;
-        messages.set_item("parameters", parameters)?;
-        messages.set_item("positions", points(|one| one.position)?)?;
-        messages.set_item("headings", points(|one| one.heading)?)?;
-        messages.set_item("lefts", points(|one| one.left)?)?;
-        messages.set_item("ups", points(|one| one.up)?)?;
-        let widths: Vec<f32> = requests.iter().map(|one| one.width).collect();
-        messages.set_item("widths", widths.into_pyarray(py))?;
-        let modules: Vec<u64> = requests.iter().map(|one| one.module as u64).collect();
-        messages.set_item("modules", modules.into_pyarray(py))?;
+        let messages = self.messages(py, requests)?;
         let answer = self.environment.bind(py).call_method1("exchange", (step, messages))?;
         if answer.is_none() {
             return Ok(());

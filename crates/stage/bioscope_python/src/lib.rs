@@ -73,7 +73,7 @@ mod _engine {
     #[pymodule_export]
     use super::tank::Tank;
     #[pymodule_export]
-    use super::turtle::{Interpretation, ViewFile, interpret, read_colors};
+    use super::turtle::{AnimateFile, Interpretation, ViewFile, interpret, read_colors, share};
     #[pymodule_export]
     use super::view::View;
     #[pymodule_export]

@@ -2,13 +2,17 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use bioscope_core::Error;
-use bioscope_lsystem::{Derivation, DerivationError, DerivationOptions, FunctionTable, View};
+use bioscope_lsystem::{
+    Derivation, DerivationError, DerivationOptions, FunctionTable, TurtleOptions, View,
+};
 use numpy::IntoPyArray;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::arrays::Array1;
+use crate::environments::Environment;
 use crate::error::to_python;
+use crate::turtle::ViewFile;
 
 /// See `bioscope.LSystem`.
 #[pyclass(frozen, module = "bioscope._engine")]
@@ -64,36 +68,64 @@ impl LSystem {
         seed: Option<u64>,
         options: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<ModuleString> {
-        let options = self.options(seed, options)?;
-        let derived = py.detach(|| derived(&self.system, steps, options));
-        let (string, output, remarks) = derived.map_err(|error| to_python(error.into()))?;
-        Ok(ModuleString { string, system: self.system.clone(), seed, output, remarks })
+        let (options, time) = self.options(seed, options)?;
+        let derived = py.detach(|| match time {
+            Some(time) => derived(&self.system, options, |derivation| until(derivation, time)),
+            None => derived(&self.system, options, |derivation| {
+                while derivation.step() < steps.unwrap_or_else(|| derivation.length()) {
+                    derivation.advance()?;
+                }
+                Ok(())
+            }),
+        });
+        let Derived { string, ids, output, remarks } =
+            derived.map_err(|error| to_python(error.into()))?;
+        Ok(ModuleString { string, system: self.system.clone(), seed, ids, output, remarks })
     }
 }
 
+const OPTIONS: [&str; 7] = ["environment", "view", "start", "time", "folder", "seconds", "threads"];
+
 impl LSystem {
+    /// Options of a derivation, and the time of a timed model until which it goes.
     fn options(
         &self,
         seed: Option<u64>,
         given: Option<&Bound<'_, PyDict>>,
-    ) -> PyResult<DerivationOptions> {
+    ) -> PyResult<(DerivationOptions, Option<f64>)> {
         let refused = |error: bioscope_lsystem::EnvironmentError| {
             to_python(DerivationError::Environment { error, step: 0 }.into())
         };
         let mut options = DerivationOptions::of(&self.system).map_err(refused)?;
         options.seed = seed;
+        let mut time = None;
         for (name, value) in given.into_iter().flatten() {
             match name.extract::<String>()?.as_str() {
                 "environment" => {
-                    let words = value.extract::<String>()?;
-                    let environment = DerivationOptions::environment_of(&words).map_err(refused)?;
-                    options.environment = Some(environment);
+                    options.environment = Some(match value.cast::<Environment>() {
+                        Ok(kept) => kept.get().shared(),
+                        Err(_) => {
+                            let words = value.extract::<String>()?;
+                            DerivationOptions::environment_of(&words).map_err(refused)?
+                        }
+                    });
                 }
                 "view" => {
-                    let view = View::read(value.extract::<PathBuf>()?).map_err(to_python)?;
+                    let view = match value.cast::<ViewFile>() {
+                        Ok(read) => read.get().view.clone(),
+                        Err(_) => {
+                            let path = value.extract::<PathBuf>()?;
+                            Arc::new(View::read(path).map_err(to_python)?)
+                        }
+                    };
                     options.functions = Some(Arc::new(FunctionTable::new(&view)));
-                    options.turtle = view.turtle;
+                    options.turtle = view.turtle.clone();
                 }
+                "start" => {
+                    let start = value.extract::<PyRef<'_, ModuleString>>()?;
+                    options.start = Some(start.string.clone());
+                }
+                "time" => time = Some(self.time(value.extract()?)?),
                 "folder" => options.folder = Some(value.extract::<PathBuf>()?),
                 "seconds" => options.seconds = Some(value.extract()?),
                 "threads" => options.threads = value.extract()?,
@@ -101,30 +133,60 @@ impl LSystem {
                     return Err(to_python(Error::Unknown {
                         kind: "option of a derivation",
                         name: other.to_owned(),
-                        known: ["environment", "view", "folder", "seconds", "threads"]
-                            .map(str::to_owned)
-                            .to_vec(),
+                        known: OPTIONS.map(str::to_owned).to_vec(),
                     }));
                 }
             }
         }
-        Ok(options)
+        Ok((options, time))
+    }
+
+    fn time(&self, seconds: f64) -> PyResult<f64> {
+        const MOST_STEPS: f64 = 1e7;
+        let Some(step) = self.system.seconds_per_step() else {
+            let expected = "a timed model (a line 'timed:')";
+            return Err(to_python(Error::value("time", seconds, expected)));
+        };
+        if !(seconds >= 0.0 && seconds <= MOST_STEPS * step) {
+            let expected = format!("0 to {MOST_STEPS} steps of {step} seconds");
+            return Err(to_python(Error::value("time", seconds, expected)));
+        }
+        Ok(seconds)
     }
 }
 
-/// The string, what the model printed, and what was doubtful.
+/// What became of a derivation.
+struct Derived {
+    string: bioscope_lsystem::ModuleString,
+    ids: Vec<u64>,
+    output: String,
+    remarks: Vec<String>,
+}
+
 fn derived(
     system: &bioscope_lsystem::LSystem,
-    steps: Option<u64>,
     options: DerivationOptions,
-) -> Result<(bioscope_lsystem::ModuleString, String, Vec<String>), DerivationError> {
+    advance: impl FnOnce(&mut Derivation) -> Result<(), DerivationError>,
+) -> Result<Derived, DerivationError> {
     let mut derivation = Derivation::with_options(system, options)?;
-    while derivation.step() < steps.unwrap_or_else(|| derivation.length()) {
+    advance(&mut derivation)?;
+    let (remarks, ids) = (derivation.remarks(), derivation.ids().to_vec());
+    let (string, output) = derivation.finish_with_output()?;
+    Ok(Derived { string, ids, output, remarks })
+}
+
+/// Lets so many seconds pass: in steps of the model, and one shorter step at the end.
+fn until(derivation: &mut Derivation, time: f64) -> Result<(), DerivationError> {
+    const NEGLIGIBLE: f64 = 1e-9;
+    let step = derivation.span();
+    if time == 0.0 {
+        return Ok(());
+    }
+    for _ in 0..(time / step + NEGLIGIBLE) as u64 {
         derivation.advance()?;
     }
-    let remarks = derivation.remarks();
-    let (string, output) = derivation.finish_with_output()?;
-    Ok((string, output, remarks))
+    let rest = time - derivation.time();
+    if rest > NEGLIGIBLE * step { derivation.pass(rest) } else { Ok(()) }
 }
 
 /// See `bioscope.ModuleString`.
@@ -133,6 +195,7 @@ pub struct ModuleString {
     pub string: bioscope_lsystem::ModuleString,
     pub system: Arc<bioscope_lsystem::LSystem>,
     pub seed: Option<u64>,
+    pub ids: Vec<u64>,
     pub output: String,
     pub remarks: Vec<String>,
 }
@@ -144,7 +207,14 @@ impl ModuleString {
         system: Arc<bioscope_lsystem::LSystem>,
         seed: u64,
     ) -> Self {
-        Self { string, system, seed: Some(seed), output: String::new(), remarks: Vec::new() }
+        Self {
+            string,
+            system,
+            seed: Some(seed),
+            ids: Vec::new(),
+            output: String::new(),
+            remarks: Vec::new(),
+        }
     }
 }
 
@@ -164,7 +234,42 @@ impl ModuleString {
         let string = py.detach(|| self.system.appearance(&self.string, self.seed));
         let string = string.map_err(|error| to_python(error.into()))?;
         let (output, remarks) = (self.output.clone(), self.remarks.clone());
-        Ok(Self { string, system: self.system.clone(), seed: self.seed, output, remarks })
+        let system = self.system.clone();
+        Ok(Self { string, system, seed: self.seed, ids: Vec::new(), output, remarks })
+    }
+
+    /// The words that it falls into at modules of this symbol: word, position, heading, up, width and color.
+    #[allow(clippy::type_complexity)] // A row of numbers.
+    #[pyo3(signature = (dead, options, view=None))]
+    fn fragments(
+        &self,
+        py: Python<'_>,
+        dead: &str,
+        options: &Bound<'_, PyDict>,
+        view: Option<&Bound<'_, ViewFile>>,
+    ) -> PyResult<Vec<(Self, [f32; 3], [f32; 3], [f32; 3], f32, i32)>> {
+        let turtle: TurtleOptions = crate::turtle::options(&self.system, options, view)?;
+        let found = py.detach(|| self.system.fragments(&self.string, dead, self.seed, &turtle));
+        let found = found.map_err(|error| to_python(error.into()))?;
+        let own = |string: bioscope_lsystem::ModuleString| Self {
+            string,
+            system: self.system.clone(),
+            seed: self.seed,
+            ids: Vec::new(),
+            output: String::new(),
+            remarks: Vec::new(),
+        };
+        let row = |one: bioscope_lsystem::Fragment| {
+            let (heading, up) = (one.frame.heading.to_array(), one.frame.up.to_array());
+            (own(one.word), one.position.to_array(), heading, up, one.width, one.color)
+        };
+        Ok(found.into_iter().map(row).collect())
+    }
+
+    /// Identities of the modules of a timed model.
+    #[getter]
+    fn ids<'py>(&self, py: Python<'py>) -> Array1<'py, u64> {
+        self.ids.clone().into_pyarray(py)
     }
 
     /// What the model has printed.

@@ -89,16 +89,61 @@ impl ViewFile {
     }
 }
 
-/// Linear colors of a color map (.map) or material file (.mat).
-#[pyfunction]
-pub fn read_colors(path: PathBuf) -> PyResult<Vec<[f32; 3]>> {
+/// See `bioscope.lsystem.AnimateFile`.
+#[pyclass(frozen, module = "bioscope._engine")]
+pub struct AnimateFile {
+    animation: bioscope_lsystem::Animation,
+}
+
+#[pymethods]
+impl AnimateFile {
+    #[new]
+    fn new(path: PathBuf) -> PyResult<Self> {
+        let (bytes, name) = small_file(&path)?;
+        let animation = bioscope_lsystem::Animation::parse(&bytes, &name);
+        Ok(Self { animation: animation.map_err(|error| to_python(error.into()))? })
+    }
+
+    /// What was not understood.
+    #[getter]
+    fn warnings(&self) -> Vec<String> {
+        self.animation.warnings.iter().map(ToString::to_string).collect()
+    }
+
+    /// Names of the switches that are on.
+    #[getter]
+    fn switches(&self) -> Vec<String> {
+        self.animation.switches.clone()
+    }
+
+    /// How long each frame stays, in refreshes of a screen.
+    #[getter]
+    fn swap_interval(&self) -> u32 {
+        self.animation.swap_interval
+    }
+
+    /// The steps that are shown; `length` is the last if the file does not say.
+    fn frames(&self, length: u64) -> Vec<u64> {
+        self.animation.frames(length)
+    }
+}
+
+/// The bytes of a file of reasonable size, and its name.
+fn small_file(path: &std::path::Path) -> PyResult<(Vec<u8>, String)> {
     const LARGEST: u64 = 1 << 20;
     let name = path.to_string_lossy().into_owned();
     let broken = |error: std::io::Error| to_python(Error::format(name.clone(), error.to_string()));
-    if std::fs::metadata(&path).map_err(broken)?.len() > LARGEST {
-        return Err(to_python(Error::format(name, "a file of colors has less than 1 MiB")));
+    if std::fs::metadata(path).map_err(broken)?.len() > LARGEST {
+        return Err(to_python(Error::format(name, "such a file has less than 1 MiB")));
     }
-    let bytes = std::fs::read(&path).map_err(broken)?;
+    let bytes = std::fs::read(path).map_err(broken)?;
+    Ok((bytes, name))
+}
+
+/// Linear colors of a color map (.map) or material file (.mat).
+#[pyfunction]
+pub fn read_colors(path: PathBuf) -> PyResult<Vec<[f32; 3]>> {
+    let (bytes, name) = small_file(&path)?;
     let is_map = path.extension().is_some_and(|suffix| suffix == "map");
     let palette = if is_map {
         bioscope_lsystem::read_color_map(&bytes, &name)
@@ -124,20 +169,63 @@ pub fn interpret(
     options: &Bound<'_, PyDict>,
     view: Option<&Bound<'_, ViewFile>>,
 ) -> PyResult<Interpretation> {
-    let mut turtle =
-        view.map_or_else(TurtleOptions::default, |view| view.get().view.turtle.clone());
-    if let Some(angle) = string.get().system.angle() {
-        turtle.angle = angle;
-    }
-    for (name, value) in options.iter() {
-        set(&mut turtle, &name.extract::<String>()?, &value)?;
-    }
+    let turtle = self::options(&string.get().system, options, view)?;
     let seen = string.get().appearance(py)?;
     let interpretation = py.detach(|| Turtle::interpret(&seen.string, &turtle));
     Ok(Interpretation { interpretation: interpretation.map_err(to_python)? })
 }
 
-const OPTIONS: [&str; 13] = [
+/// What the string looks like with equal branches drawn once: the rest, then each branch with its
+/// places (n, 3) and rotations (n, 4; x, y, z, w).
+#[pyfunction]
+#[allow(clippy::type_complexity)] // A row of arrays.
+#[pyo3(signature = (string, options, view=None))]
+pub fn share<'py>(
+    py: Python<'py>,
+    string: &Bound<'py, ModuleString>,
+    options: &Bound<'py, PyDict>,
+    view: Option<&Bound<'py, ViewFile>>,
+) -> PyResult<(Interpretation, Vec<(Interpretation, Array2<'py, f32>, Array2<'py, f32>)>)> {
+    let turtle = self::options(&string.get().system, options, view)?;
+    let seen = string.get().appearance(py)?;
+    let plant = py.detach(|| Turtle::share(&seen.string, &turtle)).map_err(to_python)?;
+    let mut parts = Vec::with_capacity(plant.parts.len());
+    for part in plant.parts {
+        let count = part.places.len();
+        let places: Vec<f32> =
+            part.places.iter().flat_map(|place| place.position.to_array()).collect();
+        let turns: Vec<f32> =
+            part.places.iter().flat_map(|place| place.rotation().to_array()).collect();
+        parts.push((
+            Interpretation { interpretation: part.drawn },
+            places.into_pyarray(py).reshape([count, 3])?,
+            turns.into_pyarray(py).reshape([count, 4])?,
+        ));
+    }
+    Ok((Interpretation { interpretation: plant.rest }, parts))
+}
+
+/// Options of the turtle: those of the view, the angle of the model, then these.
+pub fn options(
+    system: &bioscope_lsystem::LSystem,
+    given: &Bound<'_, PyDict>,
+    view: Option<&Bound<'_, ViewFile>>,
+) -> PyResult<TurtleOptions> {
+    let mut turtle =
+        view.map_or_else(TurtleOptions::default, |view| view.get().view.turtle.clone());
+    if let Some(angle) = system.angle() {
+        turtle.angle = angle;
+    }
+    for (name, value) in given.iter() {
+        set(&mut turtle, &name.extract::<String>()?, &value)?;
+    }
+    Ok(turtle)
+}
+
+const OPTIONS: [&str; 16] = [
+    "position",
+    "heading",
+    "up",
     "step",
     "angle",
     "width",
@@ -155,6 +243,9 @@ const OPTIONS: [&str; 13] = [
 
 pub fn set(turtle: &mut TurtleOptions, name: &str, value: &Bound<'_, PyAny>) -> PyResult<()> {
     match name {
+        "position" => turtle.position = Vec3::from_array(value.extract()?),
+        "heading" => turtle.heading = Vec3::from_array(value.extract()?),
+        "up" => turtle.up = Vec3::from_array(value.extract()?),
         "step" => turtle.step = value.extract()?,
         "angle" => turtle.angle = value.extract()?,
         "width" => turtle.width = value.extract()?,

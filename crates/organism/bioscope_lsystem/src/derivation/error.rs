@@ -20,6 +20,26 @@ impl Default for Limits {
     }
 }
 
+impl Limits {
+    /// The first that a string of so many modules and parameters, or so much work, exceeds.
+    pub(super) fn exceeded(
+        &self,
+        modules: usize,
+        parameters: usize,
+        operations: u64,
+    ) -> Option<String> {
+        if modules > self.modules {
+            Some(format!("more than {} modules", self.modules))
+        } else if modules + size_of::<f32>() * parameters > self.bytes {
+            Some(format!("more than {} bytes of modules and parameters", self.bytes))
+        } else if operations > self.operations {
+            Some(format!("more than {} operations", self.operations))
+        } else {
+            None
+        }
+    }
+}
+
 /// Why a derivation stopped.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum DerivationError {

@@ -4,8 +4,8 @@ use std::{path::PathBuf, sync::Arc};
 
 use super::Limits;
 use crate::{
-    Environment, EnvironmentError, Functions, LSystem, Settings, TurtleOptions, built_in,
-    read_environment,
+    Environment, EnvironmentError, Functions, LSystem, ModuleString, Settings, TurtleOptions,
+    built_in, read_environment,
 };
 
 /// What a derivation needs to know beside the L-system.
@@ -21,6 +21,8 @@ pub struct DerivationOptions {
     pub threads: bool,
     /// Functions and curves that the model looks up.
     pub functions: Option<Arc<dyn Functions>>,
+    /// A string of the same model that is taken for the axiom.
+    pub start: Option<ModuleString>,
     /// What surrounds the plant.
     pub environment: Option<Box<dyn Environment>>,
     /// How the turtle walks, for modules that ask for its place.
@@ -38,6 +40,7 @@ impl Default for DerivationOptions {
             seconds: None,
             threads: true,
             functions: None,
+            start: None,
             environment: None,
             turtle: TurtleOptions::default(),
             folder: None,

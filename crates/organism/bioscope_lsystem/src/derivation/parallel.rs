@@ -11,17 +11,30 @@ use crate::{context::Place, machine::Machine};
 /// How many modules one thread treats at a time.
 const CHUNK: usize = 1 << 15;
 
+/// How many chunks are treated before they are put together; bounds the memory beside the string.
+const WINDOW: usize = 32;
+
+/// Memory that one step leaves to the next.
+#[derive(Default)]
+pub(super) struct Space {
+    /// For the whole string.
+    pub whole: Made,
+    /// For chunks that are being treated, and for those that are put together meanwhile.
+    parts: [Vec<Made>; 2],
+}
+
 /// Treats a whole string; what it becomes, and how many operations were used so far.
 pub(super) fn rewrite(
     task: Task,
     machine: &mut Machine,
     looked: u64,
     threads: bool,
+    space: &mut Space,
 ) -> Passed<(Made, u64)> {
     if threads && task.string.kinds.len() >= 2 * CHUNK && may_split(&task, machine) {
-        return on_threads(task, machine, looked);
+        return on_threads(task, machine, looked, space);
     }
-    one_after_the_other(task, machine, looked)
+    one_after_the_other(task, machine, looked, std::mem::take(&mut space.whole))
 }
 
 /// Whether the parts of a string can be treated independently of each other.
@@ -39,14 +52,15 @@ fn may_split(task: &Task, machine: &Machine) -> bool {
         && !task.string.kinds.iter().any(is_cut)
 }
 
-/// Treats a whole string from left to right.
+/// Treats a whole string from left to right; what it becomes is written into `out`.
 pub(super) fn one_after_the_other(
     task: Task,
     machine: &mut Machine,
     looked: u64,
+    out: Made,
 ) -> Passed<(Made, u64)> {
     let string = task.string;
-    let mut pass = Pass::new(task, machine, Place { module: 0, parameter: 0 }, looked);
+    let mut pass = Pass::new(task, machine, Place { module: 0, parameter: 0 }, looked, out);
     if task.layers[0].set.productions.iter().all(|one| one.successor.program.is_empty()) {
         pass.out.kinds.reserve_exact(grown(&task));
     } else {
@@ -73,28 +87,58 @@ fn grown(task: &Task) -> usize {
     total.min(task.limits.modules.saturating_add(1)).min(task.limits.bytes)
 }
 
-fn on_threads(task: Task, machine: &Machine, looked: u64) -> Passed<(Made, u64)> {
-    let starts = chunk_starts(&task);
+/// While some chunks are treated, those before them are put together.
+fn on_threads(
+    task: Task,
+    machine: &Machine,
+    mut looked: u64,
+    space: &mut Space,
+) -> Passed<(Made, u64)> {
+    let mut out = std::mem::take(&mut space.whole);
+    out.clear();
+    let [mut coming, mut ready] = std::mem::take(&mut space.parts);
+    ready.clear();
+    for starts in chunk_starts(&task).chunks(WINDOW) {
+        coming.resize_with(starts.len(), Made::default);
+        let (used, ()) = rayon::join(
+            || rewrite_chunks(task, machine, starts, looked, &mut coming),
+            || put_together(&mut out, &ready),
+        );
+        looked += used?;
+        std::mem::swap(&mut coming, &mut ready);
+        bound(&task, &out, looked)?;
+    }
+    put_together(&mut out, &ready);
+    bound(&task, &out, looked)?;
+    space.parts = [coming, ready];
+    Ok((out, looked))
+}
+
+/// Treats the chunks that begin at `starts`; how many operations that took.
+fn rewrite_chunks(
+    task: Task,
+    machine: &Machine,
+    starts: &[Place],
+    looked: u64,
+    parts: &mut [Made],
+) -> Passed<u64> {
     let length = task.string.kinds.len();
-    let parts: Vec<(Made, u64)> = starts
+    let used: Vec<u64> = starts
         .par_iter()
+        .zip(parts)
         .map_init(
             || machine.worker(),
-            |machine, &start| {
-                let mut pass = Pass::new(task, machine, start, looked);
+            |machine, (&start, part)| {
+                let out = std::mem::take(part);
+                let mut pass = Pass::new(task, machine, start, looked, out);
                 pass.run((start.module + CHUNK).min(length))?;
                 let used = pass.matcher.looked - looked;
-                Ok((pass.out, used))
+                *part = pass.out;
+                Ok(used)
             },
         )
         .collect::<Passed<_>>()?;
-    let looked = looked + parts.iter().map(|(_, used)| used).sum::<u64>();
-    let made = joined(&task, parts)?;
-    if looked > task.limits.operations {
-        let what = format!("more than {} operations", task.limits.operations);
-        return Err(exceeded(&task, &made.by_production, what));
-    }
-    Ok((made, looked))
+    Ok(used.iter().sum())
 }
 
 /// Where each chunk begins.
@@ -115,40 +159,22 @@ fn chunk_starts(task: &Task) -> Vec<Place> {
     starts
 }
 
-/// The parts, one after the other.
-fn joined(task: &Task, parts: Vec<(Made, u64)>) -> Passed<Made> {
-    let mut made = Made::default();
-    let (mut modules, mut parameters) = (0, 0);
-    for (part, _) in &parts {
-        modules += part.kinds.len();
-        parameters += part.parameters.len();
-        made.by_production.resize(part.by_production.len(), 0);
-        for (sum, count) in made.by_production.iter_mut().zip(&part.by_production) {
+/// Appends the parts, one after the other.
+fn put_together(out: &mut Made, parts: &[Made]) {
+    for part in parts {
+        out.kinds.extend_from_slice(&part.kinds);
+        out.parameters.extend_from_slice(&part.parameters);
+        out.by_production.resize(part.by_production.len(), 0);
+        for (sum, count) in out.by_production.iter_mut().zip(&part.by_production) {
             *sum += count;
         }
     }
-    let bytes = modules + size_of::<f32>() * parameters;
-    if modules > task.limits.modules {
-        let what = format!("more than {} modules", task.limits.modules);
-        return Err(exceeded(task, &made.by_production, what));
+}
+
+/// An error if there is too much of something.
+fn bound(task: &Task, made: &Made, looked: u64) -> Passed<()> {
+    match task.limits.exceeded(made.kinds.len(), made.parameters.len(), looked) {
+        Some(what) => Err(exceeded(task, &made.by_production, what)),
+        None => Ok(()),
     }
-    if bytes > task.limits.bytes {
-        let what = format!("more than {} bytes of modules and parameters", task.limits.bytes);
-        return Err(exceeded(task, &made.by_production, what));
-    }
-    made.kinds = vec![0; modules];
-    made.parameters = vec![0.0; parameters];
-    let mut places = Vec::with_capacity(parts.len());
-    let (mut kinds, mut values) = (&mut made.kinds[..], &mut made.parameters[..]);
-    for (part, _) in parts {
-        let (kinds_here, values_here);
-        (kinds_here, kinds) = kinds.split_at_mut(part.kinds.len());
-        (values_here, values) = values.split_at_mut(part.parameters.len());
-        places.push((part, kinds_here, values_here));
-    }
-    places.into_par_iter().for_each(|(part, kinds, values)| {
-        kinds.copy_from_slice(&part.kinds);
-        values.copy_from_slice(&part.parameters);
-    });
-    Ok(made)
 }

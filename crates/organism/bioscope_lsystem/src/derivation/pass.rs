@@ -54,6 +54,17 @@ pub(super) struct Made {
     pub applied: u64,
 }
 
+impl Made {
+    /// Makes room for something else in the same memory.
+    pub fn clear(&mut self) {
+        self.kinds.clear();
+        self.parameters.clear();
+        self.by_production.clear();
+        self.notes.clear();
+        self.applied = 0;
+    }
+}
+
 /// One set applied to a part of a string.
 pub(super) struct Pass<'a, 'm> {
     pub task: Task<'a>,
@@ -67,8 +78,8 @@ pub(super) struct Pass<'a, 'm> {
     bound: Vec<f64>,
     /// L-systems that the present place is in, as numbers of layers; the innermost last.
     nested: Vec<usize>,
-    /// By kind: whether it is more than copied.
-    active: [bool; 256],
+    /// By kind: number of parameters of what is only copied, else [`ACTIVE`].
+    copied: [u8; 256],
     countdown: u32,
     /// How many results were treated again, so that each has random numbers of its own.
     pub expansions: u32,
@@ -81,13 +92,23 @@ struct Candidate {
     bound: usize,
 }
 
-/// Up to how many modules are copied one by one.
+/// Marks what is more than copied; no module has so many parameters.
+const ACTIVE: u8 = u8::MAX;
+/// Up to how many modules and parameters are copied as if they were so many.
 const SHORT: usize = 8;
 /// How many modules are treated between two looks at the clock.
 const CLOCK: u32 = 1 << 14;
 
 impl<'a, 'm> Pass<'a, 'm> {
-    pub fn new(task: Task<'a>, machine: &'m mut Machine, first: Place, looked: u64) -> Self {
+    /// Begins at `first`; what is made is written into `out`, whatever is in it.
+    pub fn new(
+        task: Task<'a>,
+        machine: &'m mut Machine,
+        first: Place,
+        looked: u64,
+        mut out: Made,
+    ) -> Self {
+        out.clear();
         let layer = task.layers[0];
         let mut pass = Self {
             matcher: Matcher {
@@ -104,12 +125,12 @@ impl<'a, 'm> Pass<'a, 'm> {
             layer,
             task,
             machine,
-            out: Made::default(),
+            out,
             place: first,
             candidates: Vec::new(),
             bound: Vec::new(),
             nested: vec![0],
-            active: [false; 256],
+            copied: [ACTIVE; 256],
             countdown: CLOCK,
             expansions: 0,
         };
@@ -129,73 +150,50 @@ impl<'a, 'm> Pass<'a, 'm> {
             .by_production
             .resize((layer.set.productions.len() + inner).max(self.out.by_production.len()), 0);
         let acts = |set: &ProductionSet, kind: usize| !matches!(set.actions[kind], Action::Keep);
+        let all = self.task.layers.len() > 1 || self.task.choice == Choice::Reference;
         for kind in 0..256 {
-            self.active[kind] = acts(layer.set, kind)
+            let is_active = all
+                || acts(layer.set, kind)
                 || layer.decomposition.is_some_and(|set| acts(set, kind))
                 || self.task.noted.is_some_and(|noted| noted[kind])
                 || matches!(kind as u8, Alphabet::CUT | Alphabet::REPORTED_CUT);
-        }
-        if self.task.layers.len() > 1 || self.task.choice == Choice::Reference {
-            self.active = [true; 256];
+            self.copied[kind] = if is_active { ACTIVE } else { self.task.arities[kind] };
         }
     }
 
     /// Treats the modules up to number `end`.
     pub fn run(&mut self, end: usize) -> Passed<()> {
         self.check()?;
-        while self.place.module < end {
-            let kinds = &self.task.string.kinds;
-            let from = self.place.module;
-            let is_active = |&kind: &u8| self.active[kind as usize];
-            let near = end.min(from + SHORT);
-            match kinds[from..near].iter().position(is_active) {
-                Some(0) => self.module()?,
-                Some(length) => self.copy_short(length),
-                None => {
-                    let length = kinds[near..end].iter().position(is_active);
-                    self.copy(length.unwrap_or(end - near) + near - from);
+        let kinds = &self.task.string.kinds[..end];
+        while let Some(rest) = kinds.get(self.place.module..).filter(|rest| !rest.is_empty()) {
+            let (mut count, mut parameters) = (0, 0);
+            for &kind in rest {
+                let arity = self.copied[kind as usize];
+                if arity == ACTIVE {
+                    break;
                 }
+                count += 1;
+                parameters += arity as usize;
+            }
+            if count > 0 {
+                self.copy(count, parameters);
+            }
+            if count < rest.len() {
+                self.module()?;
             }
         }
         self.check()
     }
 
-    /// Copies a few modules, one by one.
+    /// Copies so many modules with so many parameters.
     #[inline]
-    fn copy_short(&mut self, count: usize) {
-        let string = self.task.string;
-        let first = self.place.module;
-        let mut parameter = self.place.parameter;
-        for &kind in &string.kinds[first..first + count] {
-            self.out.kinds.push(kind);
-            match self.task.arities[kind as usize] as usize {
-                0 => {}
-                1 => {
-                    self.out.parameters.push(string.parameters[parameter]);
-                    parameter += 1;
-                }
-                arity => {
-                    let values = &string.parameters[parameter..parameter + arity];
-                    self.out.parameters.extend_from_slice(values);
-                    parameter += arity;
-                }
-            }
-        }
-        self.place = Place { module: first + count, parameter };
-        self.matcher.looked += count as u64;
-    }
-
-    /// Copies so many modules.
-    fn copy(&mut self, count: usize) {
-        let string = self.task.string;
-        let kinds = &string.kinds[self.place.module..self.place.module + count];
-        let arities = self.task.arities;
-        let parameters: usize = kinds.iter().map(|&kind| arities[kind as usize] as usize).sum();
-        let first = self.place.parameter;
-        self.out.kinds.extend_from_slice(kinds);
-        self.out.parameters.extend_from_slice(&string.parameters[first..first + parameters]);
-        self.place.module += count;
-        self.place.parameter += parameters;
+    fn copy(&mut self, count: usize, parameters: usize) {
+        let Place { module, parameter } = self.place;
+        let (kinds, values) =
+            (&self.task.string.kinds[module..], &self.task.string.parameters[parameter..]);
+        append(&mut self.out.kinds, kinds, count);
+        append(&mut self.out.parameters, values, parameters);
+        self.place = Place { module: module + count, parameter: parameter + parameters };
         self.matcher.looked += count as u64;
     }
 
@@ -236,6 +234,12 @@ impl<'a, 'm> Pass<'a, 'm> {
     /// The production to apply among those of these numbers, its parameters bound.
     fn choose(&mut self, numbers: &[u32]) -> Passed<Option<u32>> {
         let set = self.layer.set;
+        if let &[number] = numbers
+            && set.productions[number as usize].is_simple
+            && self.task.choice != Choice::Reference
+        {
+            return self.simple(number);
+        }
         self.candidates.clear();
         self.bound.clear();
         let mut is_bound = false;
@@ -268,6 +272,19 @@ impl<'a, 'm> Pass<'a, 'm> {
         let slots = set.productions[number as usize].slots;
         self.machine.slots()[..slots].copy_from_slice(&self.bound[bound..bound + slots]);
         Ok(Some(number))
+    }
+
+    /// A production without context and chance that alone can replace the present module.
+    #[inline]
+    fn simple(&mut self, number: u32) -> Passed<Option<u32>> {
+        let production = &self.layer.set.productions[number as usize];
+        let first = self.place.parameter;
+        let values =
+            &self.task.string.parameters[first..first + production.strict[0].arity as usize];
+        for (slot, &value) in self.machine.slots().iter_mut().zip(values) {
+            *slot = f64::from(value);
+        }
+        Ok(self.passes(production)?.then_some(number))
     }
 
     /// Weight of a production that applies; none if it is taken without a draw.
@@ -348,6 +365,12 @@ impl<'a, 'm> Pass<'a, 'm> {
         if production.is_random {
             self.machine.random.begin(self.place.module, self.task.tick, number);
         }
+        self.passes(production)
+    }
+
+    /// Whether the condition of a production holds whose parameters are bound.
+    #[inline]
+    fn passes(&mut self, production: &Production) -> Passed<bool> {
         if production.test.is_empty() {
             return Ok(true);
         }
@@ -419,7 +442,7 @@ impl<'a, 'm> Pass<'a, 'm> {
             self.out.notes.push((self.out.kinds.len(), self.place.module));
         }
         let before = self.place;
-        self.copy_short(1);
+        self.copy(1, self.task.arities[kind as usize] as usize);
         if self.task.layers.len() > 1 {
             self.pass_over(before.module..before.module + 1, before.parameter);
         }
@@ -515,19 +538,29 @@ impl<'a, 'm> Pass<'a, 'm> {
 
     /// An error if a limit is exceeded.
     pub fn check(&self) -> Passed<()> {
-        let Limits { modules, bytes, operations } = self.task.limits;
-        let what = if self.out.kinds.len() > modules {
-            format!("more than {modules} modules")
-        } else if self.bytes() > bytes {
-            format!("more than {bytes} bytes of modules and parameters")
-        } else if self.matcher.looked > operations {
-            format!("more than {operations} operations")
-        } else if self.task.deadline.is_some_and(|deadline| Instant::now() > deadline) {
-            "more time than it was given".to_string()
-        } else {
-            return Ok(());
+        let (modules, parameters) = (self.out.kinds.len(), self.out.parameters.len());
+        let what = match self.task.limits.exceeded(modules, parameters, self.matcher.looked) {
+            Some(what) => what,
+            None if self.task.deadline.is_some_and(|deadline| Instant::now() > deadline) => {
+                "more time than it was given".to_string()
+            }
+            None => return Ok(()),
         };
         Err(exceeded(&self.task, &self.out.by_production, what))
+    }
+}
+
+/// Appends the first `count` values of a slice that may have more.
+#[inline]
+fn append<T: Copy>(out: &mut Vec<T>, values: &[T], count: usize) {
+    // A copy of known length is made without a call.
+    match values.first_chunk::<SHORT>() {
+        Some(chunk) if count <= SHORT => {
+            let length = out.len() + count;
+            out.extend_from_slice(chunk);
+            out.truncate(length);
+        }
+        _ => out.extend_from_slice(&values[..count]),
     }
 }
 

@@ -14,9 +14,9 @@
 
 use bioscope_core::{Purpose, Random};
 
-use super::{Derivation, DerivationError, Derived};
+use super::{Derivation, DerivationError, Derived, cuts::cut};
 use crate::{
-    ModuleString,
+    Alphabet, ModuleString,
     context::{Groups, Matcher, Place},
     machine::{Machine, is_true},
     model::{Action, Production, ProductionSet, Timing},
@@ -55,6 +55,11 @@ impl Derivation<'_> {
     /// Seconds since the beginning; 0 if the model is not timed.
     pub fn time(&self) -> f64 {
         self.time
+    }
+
+    /// Seconds of the next step; 0 if the model is not timed.
+    pub fn span(&self) -> f64 {
+        self.span
     }
 
     /// Lets so many seconds pass in one step of a timed model.
@@ -96,7 +101,7 @@ impl Derivation<'_> {
         let mut waiting = Vec::new();
         while let Some(&kind) = old.kinds.get(place.module) {
             let arity = self.arities[kind as usize] as usize;
-            let after = Place { module: place.module + 1, parameter: place.parameter + arity };
+            let mut after = Place { module: place.module + 1, parameter: place.parameter + arity };
             let mut parameters = old.parameters[place.parameter..after.parameter].to_vec();
             if timing.is_timed[kind as usize] {
                 parameters[0] = (f64::from(parameters[0]) + self.span) as f32;
@@ -105,6 +110,11 @@ impl Derivation<'_> {
             waiting.push(Being { kind, parameters, id, replaced: 0 });
             let mut context = Some((place, after));
             while let Some(being) = waiting.pop() {
+                if being.kind == Alphabet::REPORTED_CUT && being.replaced > 0 {
+                    let amount = being.parameters[0];
+                    after = cut(&mut self.string, &mut self.ids, &old, after, amount);
+                    continue;
+                }
                 // What is new has no context yet.
                 let around = context.take();
                 matcher.looked += 1;

@@ -91,6 +91,8 @@ pub(crate) fn binary(operation: Binary, a: f64, b: f64, rules: Rules) -> Result<
             // i64::MIN % -1 is 0 too, so only a zero divisor is a fault.
             remainder.or((b as i64 != 0).then_some(0)).ok_or(Fault::RemainderByZero)? as f64
         }
+        Binary::Power if b == 2.0 => a * a,
+        Binary::Power if b == 0.5 && a > 0.0 => libm::sqrt(a),
         Binary::Power => libm::pow(a, b),
         Binary::Less => truth(a < b),
         Binary::LessEqual => truth(a <= b),

@@ -433,12 +433,18 @@ impl Compiler<'_, '_> {
         Ok(Operand::Register(to))
     }
 
-    pub fn emit(&mut self, instruction: Instruction) -> Parsed<usize> {
-        if self.code.len() >= PROGRAM_LIMIT {
-            let (_, span) = self.cursor.peek_term();
-            let message = format!("a program of more than {PROGRAM_LIMIT} steps");
-            return Err(SyntaxError::new(span, message));
+    /// An error if there is no room for another instruction.
+    pub fn room(&self) -> Parsed<()> {
+        if self.code.len() < PROGRAM_LIMIT {
+            return Ok(());
         }
+        let (_, span) = self.cursor.peek_term();
+        let message = format!("a program of more than {PROGRAM_LIMIT} steps");
+        Err(SyntaxError::new(span, message))
+    }
+
+    pub fn emit(&mut self, instruction: Instruction) -> Parsed<usize> {
+        self.room()?;
         self.code.push(instruction);
         Ok(self.code.len() - 1)
     }

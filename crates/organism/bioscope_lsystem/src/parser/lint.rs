@@ -25,8 +25,11 @@ impl Parser<'_> {
                 ];
                 for (set, is_stochastic) in &sets {
                     found.extend(self.never_made(set, &made));
-                    if !is_stochastic && draft.tables.len() == 1 {
-                        found.extend(forestalled(set));
+                    if draft.tables.len() == 1 {
+                        found.extend(match is_stochastic {
+                            true => competing(set),
+                            false => forestalled(set),
+                        });
                     }
                 }
             }
@@ -41,6 +44,7 @@ impl Parser<'_> {
         if let Some((axiom, _)) = &self.axiom {
             made.extend(&axiom.kinds);
         }
+        made.extend(self.growth.iter().map(|&(_, shown, _)| shown));
         for draft in &self.drafts {
             let rewriting = draft.rewriting.iter().map(|(_, production)| production);
             let others = draft.decomposition.list.iter().chain(&draft.homomorphism.list);
@@ -101,6 +105,35 @@ fn forestalled(set: &[&Production]) -> Vec<Diagnostic> {
         }
     }
     found
+}
+
+/// Productions that are meant for what others leave, but are drawn by chance like those: with
+/// `seed:` the order of productions means nothing.
+fn competing(set: &[&Production]) -> Vec<Diagnostic> {
+    let is_rest =
+        |one: &Production| one.left.is_empty() && one.right.is_empty() && one.test.is_empty();
+    let mut found = Vec::new();
+    for production in set.iter().filter(|one| is_rest(one)) {
+        let rivals = || set.iter().filter(|other| replaces_same(other, production));
+        let special = rivals().find(|rival| !is_rest(rival));
+        if let Some(special) = special
+            && rivals().all(|rival| rival.probability.is_none())
+        {
+            let message = format!(
+                "'seed:' lets chance decide between this production and the one in line {}",
+                special.place.line
+            );
+            let help = "without 'seed:' the first that applies is taken; weights such as ': 0.5' \
+                        say that chance is meant";
+            found.push(report(production, message, Some(help.into())));
+        }
+    }
+    found
+}
+
+fn replaces_same(one: &Production, other: &Production) -> bool {
+    one.strict.len() == other.strict.len()
+        && one.strict.iter().zip(&other.strict).all(|(own, its)| own.kind == its.kind)
 }
 
 fn counted(arity: u8) -> String {

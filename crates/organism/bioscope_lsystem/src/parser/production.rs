@@ -3,14 +3,14 @@
 use std::ops::Range;
 
 use super::{
-    Parsed, Parser, SyntaxError,
+    Parsed, Parser, Part, SyntaxError,
     expression::{Compiler, Operand},
     names::Scope,
 };
 use crate::{
     Alphabet,
     lexer::{Cursor, Term, Word},
-    machine::{Instruction, Program, SLOT_LIMIT, with_early_ends},
+    machine::{Instruction, Program, SLOT_LIMIT, end_with_emission, with_early_ends},
     model::{Pattern, Production, RightContext, Successor},
 };
 
@@ -79,6 +79,7 @@ impl Parser<'_> {
             || program.is_random()
             || probability.as_ref().is_some_and(Program::is_random);
         let patterns = left.len() + strict.len() + right.len();
+        let is_simple = patterns == 1 && strict.len() == 1 && probability.is_none() && !is_random;
         let cost = test.cost() + program.cost() + probability.as_ref().map_or(0, Program::cost);
         Ok(Production {
             left,
@@ -90,6 +91,7 @@ impl Parser<'_> {
             successor: Successor { kinds, program },
             slots: scope.len(),
             keeps_parameters,
+            is_simple,
             is_random,
             place,
             text,
@@ -197,7 +199,8 @@ impl Parser<'_> {
         Ok(formals)
     }
 
-    /// In a timed model the first parameter of a declared module is its age, which is not written.
+    /// In a timed model the first parameter of a declared module is its age, which is not written;
+    /// but what a `growth:` line lets it show has the numbers of that line alone.
     fn with_age(
         &self,
         symbol: &str,
@@ -206,7 +209,12 @@ impl Parser<'_> {
     ) -> Vec<(String, Range<usize>)> {
         let is_declared = self.declared.iter().any(|(known, _)| known == symbol);
         let has_age = names.first().is_some_and(|(name, _)| name == "age");
-        if self.timed.is_some() && is_declared && !has_age {
+        let shows_else = self.part == Part::Homomorphism
+            && self
+                .growth
+                .iter()
+                .any(|&(kind, ..)| *self.alphabet.kinds()[kind as usize].symbol == *symbol);
+        if self.timed.is_some() && is_declared && !has_age && !shows_else {
             names.insert(0, ("age".into(), span.clone()));
         }
         names
@@ -314,12 +322,14 @@ fn arguments(compiler: &mut Compiler) -> Parsed<usize> {
     compiler.take();
     let mut arity = 0;
     loop {
+        let first = compiler.code.len();
         let value = match compiler.cursor.peek_term().0 {
             Term::Text => Operand::Constant(f64::from(compiler.text()?)),
             _ => compiler.expression()?,
         };
         let from = compiler.register(value)?;
-        compiler.emit(Instruction::Emit { from })?;
+        compiler.room()?;
+        end_with_emission(&mut compiler.code, first, from);
         compiler.temporaries = 0;
         arity += 1;
         match compiler.cursor.peek_term().0 {

@@ -43,6 +43,12 @@ pub struct Movement {
 pub struct TurtleOptions {
     /// Whose turtle it is.
     pub conventions: Conventions,
+    /// Where it starts, metres.
+    pub position: Vec3,
+    /// How it looks there: where it goes, and what is up as nearly as that allows (H × L).
+    pub heading: Vec3,
+    /// See [`Self::heading`].
+    pub up: Vec3,
     /// Length of `F` and `f`, metres.
     pub step: f32,
     /// Angle of turns, degrees.
@@ -84,6 +90,9 @@ impl Default for TurtleOptions {
     fn default() -> Self {
         Self {
             conventions: Conventions::Notes,
+            position: Vec3::ZERO,
+            heading: Vec3::Y,
+            up: Vec3::Z,
             step: 1.0,
             angle: 45.0,
             width: 0.1,

@@ -4,8 +4,9 @@ use std::collections::BTreeMap;
 
 use bioscope_core::{Mat3, Quat, Result};
 use bioscope_geometry::Transform;
+use glam::DVec3;
 
-use super::{Command, Disc, Frame, Turtle, TurtleOptions};
+use super::{Axes, Command, Disc, Frame, Turtle, TurtleOptions};
 use crate::{Alphabet, ModuleString, interpretation::Interpretation};
 
 /// Branches of fewer modules are not worth sharing.
@@ -196,7 +197,7 @@ impl<'a> Branches<'a> {
         let mut own = Turtle::new(self.string.alphabet(), turtle.options);
         let start = own.state;
         own.state = turtle.state;
-        (own.state.position, own.state.axes) = (start.position, start.axes);
+        (own.state.position, own.state.axes) = (DVec3::ZERO, Axes::START);
         (own.state.axis, own.state.anchor, own.state.before) = (None, None, start.before);
         for inner in module + 1..self.ends[module] - 1 {
             own.read(self.string.kinds()[inner], self.own(inner))?;

@@ -1,3 +1,4 @@
+use bioscope_core::Vec3;
 use glam::DVec3;
 
 use super::axes::{Angle, Axes};
@@ -46,9 +47,13 @@ impl State {
         for (own, movement) in elasticity.iter_mut().zip(&options.movements) {
             *own = movement.elasticity;
         }
-        let axes = Axes::START;
+        let is_usual = (options.heading, options.up) == (Vec3::Y, Vec3::Z);
+        let axes = match is_usual {
+            true => Axes::START,
+            false => Axes::looking(options.heading.as_dvec3(), options.up.as_dvec3()),
+        };
         Self {
-            position: DVec3::ZERO,
+            position: options.position.as_dvec3(),
             axes,
             width: options.width,
             color: options.color,

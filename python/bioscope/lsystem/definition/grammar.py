@@ -1,0 +1,380 @@
+"""The grammar of definition files: text to sections, symbols and productions."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, field
+from itertools import pairwise
+from typing import TYPE_CHECKING
+
+from bioscope.errors import FormatError
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+SECTIONS = (
+    "Camera_AnimationParameters",
+    "RepetitionParameters",
+    "Options",
+    "Splines",
+    "Constants",
+    "Surfaces",
+    "Axiom",
+    "Productions",
+)
+CAMERA = {
+    "pref_pos_x1_x2_y1_y2": 4,
+    "prefpos_x1_x2_y1_y2": 4,
+    "observer": 3,
+    "lookatPoint": 3,
+    "twist": 1,
+    "viewAngle": 1,
+    "aspectRatio": 1,
+    "near": 1,
+    "far": 1,
+    "swapinterval": 1,
+    "nbrCalcStep_seed": 2,
+    "t_final_interval": 2,
+}
+REPETITION = {
+    "rotate": 3,
+    "rotate_max": 3,
+    "translate": 3,
+    "translate_max": 3,
+    "scale": 1,
+    "scale_max": 1,
+    "time_scale": 1,
+    "time_const": 1,
+    "startp_sidel_nbr_dist": 6,
+}
+OPTIONS = (
+    "MaxPart",
+    "command_file",
+    "fConst",
+    "VLNETdeclare",
+    "AUDIOport_host",
+    "NBR_actors",
+    "iVisionWinSize",
+    "iVisionWinSize_maxColors",
+    "NBR_walk_motors",
+    "actorNbr_automata",
+    "Sound_event_file",
+    "rs_file_path_name",
+    "rs_switch",
+    "NbrChannels_listOfNames",
+    "trace_actor",
+    "import_trace",
+)
+LINEAR = set("abcdefghijklmnopqrsABCD")
+CURVED = set("EFGHIJKLMNOPQRS")
+END_OF_SPLINE = 1e30
+SLOTS = 7
+LONGEST = 1 << 20
+
+
+@dataclass(frozen=True, slots=True)
+class Expression:
+    """A postfix expression as it stands between parentheses; empty is zero."""
+
+    text: str
+    place: str = field(compare=False)
+
+    def __str__(self) -> str:
+        """Return it as it is written."""
+        return f"({self.text})"
+
+
+@dataclass(frozen=True, slots=True)
+class Template:
+    """A symbol with its age, three parameters and three growth expressions."""
+
+    symbol: str
+    slots: tuple[Expression, ...]
+    place: str = field(compare=False)
+
+    def __str__(self) -> str:
+        """Return it as it is written."""
+        return " ".join((self.symbol, *map(str, self.slots)))
+
+
+@dataclass(frozen=True, slots=True)
+class Rule:
+    """A production: what replaces a symbol of this age under this condition in this context."""
+
+    symbol: str
+    age: Expression
+    condition: tuple[Expression | str, ...]
+    left: str
+    right: str
+    alternatives: list[tuple[float, list[Template]]]
+    place: str = field(compare=False)
+
+    def __str__(self) -> str:
+        """Return it as it is written."""
+        test = ""
+        for part in self.condition:
+            test += f"[{part}" if isinstance(part, Expression) else part.removeprefix("0")
+            test += "]" if isinstance(part, str) and part.startswith("0") else ""
+        head = f"{self.symbol} {self.age} {test or '()'} ({self.left}) ({self.right})"
+        made = [
+            f"{chance:.17g}\n" + "\n".join(map(str, symbols)) + "\nEndProb"
+            for chance, symbols in self.alternatives
+        ]
+        return "\n".join([head, *made, "End"])
+
+
+@dataclass(slots=True)
+class Definition:
+    """A definition file."""
+
+    file: str = field(compare=False)
+    camera: dict[str, list[float]] = field(default_factory=dict)
+    repetition: dict[str, list[float]] = field(default_factory=dict)
+    options: list[tuple[str, list[str]]] = field(default_factory=list)
+    splines: dict[int, list[tuple[float, float]]] = field(default_factory=dict)
+    constants: dict[str, list[float]] = field(default_factory=dict)
+    surfaces: dict[int, str] = field(default_factory=dict)
+    axiom: list[Template] = field(default_factory=list)
+    rules: list[Rule] = field(default_factory=list)
+
+    def __str__(self) -> str:
+        """Return the file, which reads back as the same definition."""
+        lines = [SECTIONS[0], *(f"{name} {_told(one)}" for name, one in self.camera.items())]
+        lines += [SECTIONS[1], *(f"{name} {_told(one)}" for name, one in self.repetition.items())]
+        lines += [SECTIONS[2], *(" ".join((name, *words)) for name, words in self.options)]
+        lines.append(SECTIONS[3])
+        for number, keys in self.splines.items():
+            pairs = " ".join(_told(key) for key in keys)
+            lines.append(f"function time_spline {number} {len(keys)} 1 1 {pairs} 1e30 1e30")
+        lines += [SECTIONS[4], *(f"{name} {_told(one)}" for name, one in self.constants.items())]
+        lines += [SECTIONS[5], *(f"fig_sm {one} {file}" for one, file in self.surfaces.items())]
+        lines += [SECTIONS[6], *map(str, self.axiom), SECTIONS[7], *map(str, self.rules)]
+        return "\n".join([*lines, "EndProductions"]) + "\n"
+
+
+def _told(values: Iterable[float]) -> str:
+    return " ".join(f"{one:.17g}" for one in values)
+
+
+def read(text: str, file: str) -> Definition:
+    """Return what a definition file says.
+
+    Raises
+    ------
+    FormatError
+        With file, line and column.
+    """
+    if len(text) > LONGEST:
+        raise FormatError(f"{file}: a definition file has at most {LONGEST} characters")
+    reader = _Reader(text, file)
+    definition = Definition(file)
+    reader.sections(definition)
+    return definition
+
+
+def _blanks(comment: re.Match[str]) -> str:
+    return re.sub(r"[^\n]", " ", comment.group())
+
+
+class _Reader:
+    """A place in the text."""
+
+    def __init__(self, text: str, file: str) -> None:
+        # Comments become blanks, so that places stay what they are.
+        self.text = re.sub(r"/\*.*?\*/", _blanks, text, flags=re.S)
+        self.file = file
+        self.at = 0
+
+    def place(self) -> str:
+        line = self.text.count("\n", 0, self.at) + 1
+        column = self.at - (self.text.rfind("\n", 0, self.at) + 1) + 1
+        return f"{self.file}:{line}:{column}"
+
+    def error(self, message: str) -> FormatError:
+        return FormatError(f"{self.place()}: {message}")
+
+    def skip(self) -> None:
+        while self.at < len(self.text) and self.text[self.at].isspace():
+            self.at += 1
+
+    def peek(self) -> str:
+        """Return the next word without taking it; empty at the end."""
+        self.skip()
+        match = re.compile(r"[^\s()]+").match(self.text, self.at)
+        return match.group() if match else ""
+
+    def word(self, expected: str) -> str:
+        found = self.peek()
+        if not found:
+            raise self.error(f"expected {expected}")
+        self.at += len(found)
+        return found
+
+    def number(self, expected: str) -> float:
+        found = self.peek()
+        try:
+            value = float(found)
+        except ValueError:
+            raise self.error(f"expected {expected}, found '{found}'") from None
+        self.at += len(found)
+        return value
+
+    def sections(self, definition: Definition) -> None:
+        for name in SECTIONS:
+            if name == "Axiom":
+                self.keyword(name)
+                while not self.peek().startswith("Productions"):
+                    definition.axiom.append(self.template())
+            elif name == "Productions":
+                self.keyword(name)
+                while self.peek() != "EndProductions":
+                    definition.rules.append(self.rule())
+            elif self.peek() == name:
+                self.keyword(name)
+                self.head(name, definition)
+
+    def keyword(self, name: str) -> None:
+        if self.peek() != name:
+            raise self.error(f"expected '{name}', found '{self.peek()}'")
+        self.at += len(name)
+
+    def head(self, section: str, definition: Definition) -> None:
+        """Read a section before the axiom."""
+        while self.peek() and self.peek() not in SECTIONS:
+            if section == "Camera_AnimationParameters":
+                self.numbers(CAMERA, definition.camera)
+            elif section == "RepetitionParameters":
+                self.numbers(REPETITION, definition.repetition)
+            elif section == "Options":
+                self.option(definition)
+            elif section == "Splines":
+                self.spline(definition)
+            elif section == "Constants":
+                self.constant(definition)
+            else:
+                self.keyword("fig_sm")
+                number = int(self.number("the number of a surface"))
+                definition.surfaces[number] = self.word("a file")
+
+    def numbers(self, known: dict[str, int], into: dict[str, list[float]]) -> None:
+        name = self.peek()
+        if name not in known:
+            raise self.error(f"unknown parameter '{name}'; known are {', '.join(known)}")
+        self.at += len(name)
+        into[name] = [self.number(f"a number of '{name}'") for _ in range(known[name])]
+
+    def option(self, definition: Definition) -> None:
+        name = self.peek()
+        if name == "function":
+            self.spline(definition)
+            return
+        if name not in OPTIONS:
+            raise self.error(f"unknown option '{name}'; known are {', '.join(OPTIONS)}")
+        self.at += len(name)
+        words: list[str] = []
+        while (found := self.peek()) and found not in OPTIONS and found not in SECTIONS:
+            if found == "function":
+                break
+            words.append(self.word("a word"))
+        definition.options.append((name, words))
+
+    def spline(self, definition: Definition) -> None:
+        self.keyword("function")
+        self.keyword("time_spline")
+        number = int(self.number("the number of a spline"))
+        count = int(self.number("how many pairs it has"))
+        scales = self.number("a scale of arguments"), self.number("a scale of values")
+        keys: list[tuple[float, float]] = []
+        while (argument := self.number("an argument")) != END_OF_SPLINE:
+            keys.append((argument * scales[0], self.number("a value") * scales[1]))
+        self.number("1e30")
+        if len(keys) != count or not keys:
+            raise self.error(f"spline {number} has {len(keys)} pairs, not {count}")
+        if any(later[0] <= earlier[0] for earlier, later in pairwise(keys)):
+            raise self.error(f"the arguments of spline {number} do not increase")
+        definition.splines[number] = keys
+
+    def constant(self, definition: Definition) -> None:
+        name = self.peek()
+        count = 2 if name in LINEAR or name == "#" else 3 if name in CURVED else 0
+        if not count:
+            raise self.error(f"'{name}' is no name of a constant")
+        self.at += len(name)
+        values = [self.number(f"a number of constant '{name}'") for _ in range(count)]
+        definition.constants[name] = values
+
+    def symbol(self) -> str:
+        self.skip()
+        found = self.text[self.at : self.at + 1]
+        if not (found.isascii() and (found.isalnum() or found in "[]{}./^&$+-?")) or not found:
+            raise self.error(f"expected a symbol, found '{self.peek() or 'nothing'}'")
+        self.at += 1
+        return found
+
+    def expression(self) -> Expression:
+        self.skip()
+        place = self.place()
+        end = self.text.find(")", self.at)
+        if self.text[self.at : self.at + 1] != "(" or end < 0:
+            raise self.error("expected an expression in parentheses")
+        inner = self.text[self.at + 1 : end]
+        if "(" in inner:
+            raise self.error("an expression in parentheses that are not closed")
+        self.at = end + 1
+        return Expression("".join(inner.split()), place)
+
+    def template(self) -> Template:
+        self.skip()
+        place = self.place()
+        symbol = self.symbol()
+        return Template(symbol, tuple(self.expression() for _ in range(SLOTS)), place)
+
+    def rule(self) -> Rule:
+        self.skip()
+        place = self.place()
+        symbol, age, condition = self.symbol(), self.expression(), self.condition()
+        left, right = self.context(), self.context()
+        alternatives = []
+        while self.peek() != "End":
+            chance = self.number("a probability")
+            made = []
+            while not self.peek().startswith("EndProb"):
+                made.append(self.template())
+            self.keyword("EndProb")
+            alternatives.append((chance, made))
+        self.keyword("End")
+        return Rule(symbol, age, condition, left, right, alternatives, place)
+
+    def condition(self) -> tuple[Expression | str, ...]:
+        """Read atoms `[ (expression) predicate ]` and `&`, `|`, `!` after them."""
+        self.skip()
+        if self.text[self.at : self.at + 1] == "(":
+            if self.expression().text:
+                raise self.error("expected '()' or a condition in brackets")
+            return ()
+        parts: list[Expression | str] = []
+        while (letter := self.peek()[:1]) and letter in "[&|!":
+            self.at += 1
+            if letter != "[":
+                parts.append(letter)
+                continue
+            parts.append(self.expression())
+            predicate = self.peek()[:1]
+            if not predicate or predicate not in "<p>g=!":
+                raise self.error("expected one of < p > g = ! after an expression")
+            self.at += 1
+            parts.append("0" + predicate)
+            self.keyword_letter("]")
+        return tuple(parts)
+
+    def keyword_letter(self, letter: str) -> None:
+        self.skip()
+        if self.text[self.at : self.at + 1] != letter:
+            raise self.error(f"expected '{letter}'")
+        self.at += 1
+
+    def context(self) -> str:
+        found = self.expression()
+        if len(found.text) > 1:
+            raise self.error("a context is one symbol in parentheses, or '()'")
+        return found.text
