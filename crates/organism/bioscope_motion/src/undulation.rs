@@ -11,6 +11,11 @@ use bioscope_core::{Error, Quat, Result, Vec3, math};
 use bioscope_geometry::{Joint, Transform};
 use serde::{Deserialize, Serialize};
 
+mod hinges;
+
+pub(crate) use hinges::pose_hinges;
+pub use hinges::{Hinge, Part};
+
 /// Share of the body length, from the snout, at which the origin of a body lies: about the centre of mass.
 pub const ORIGIN: f32 = 0.42;
 
@@ -20,6 +25,13 @@ const STROUHAL: [f32; 2] = [0.33, 0.27];
 const SLOWEST_AMPLITUDE: f32 = 0.6;
 /// By how much the amplitude wanders, so that nobody beats like a metronome.
 const WANDER: f32 = 0.15;
+/// Strokes per second of a fin that rows at up to one body length per second; in proportion to the speed above (choice).
+const ROWING: f32 = 0.8;
+/// Turn from which the inner fin rows backward, radians per second, and share of gliding from which both do (choice).
+const ROWED_TURN: f32 = 0.4;
+const BRAKING: f32 = 0.6;
+/// Seconds in which the mouth opens (choice).
+const GAPE_TIME: f32 = 0.12;
 /// Greatest bend of each half of the body in radians.
 const GREATEST_BEND: f32 = 0.6;
 
@@ -69,21 +81,8 @@ impl Gait {
     }
 }
 
-/// A pair fin that beats or spreads at a hinge.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FinHinge {
-    /// Middle of the fin's base in mesh space, metres.
-    pub position: Vec3,
-    /// Unit axis about which a positive angle spreads the fin from the body.
-    pub axis: Vec3,
-    /// +1 for a left fin, −1 for a right one.
-    pub side: f32,
-    /// Greatest angle in radians.
-    pub swing: f32,
-}
-
-/// A row of rigid links from snout to tail, with hinged fins. At rest it lies along Z of the mesh, snout at +Z.
-/// Its joints are the fore ends of the links, in order, and then the fins.
+/// A row of rigid links from snout to tail, with hinged fins and a jaw. At rest it lies along Z of the mesh, snout at +Z.
+/// Its joints are the fore ends of the links, in order, and then the hinges.
 #[derive(Clone, Debug)]
 pub struct Spine {
     length: f32,
@@ -94,7 +93,7 @@ pub struct Spine {
     masses: Vec<f32>,
     /// Sideways motion of each link end in body lengths: factors of the sine and cosine of the phase.
     wave: Vec<[f32; 2]>,
-    hinges: Vec<FinHinge>,
+    hinges: Vec<Hinge>,
 }
 
 impl Spine {
@@ -105,7 +104,7 @@ impl Spine {
         gait: Gait,
         cuts: Vec<f32>,
         masses: Vec<f32>,
-        hinges: Vec<FinHinge>,
+        hinges: Vec<Hinge>,
     ) -> Result<Self> {
         check(length, gait, &cuts, &masses)?;
         let total: f32 = masses.iter().sum();
@@ -132,7 +131,7 @@ impl Spine {
         self.gait
     }
 
-    /// Number of poses that [`spine_pose`] writes: links and fins.
+    /// Number of poses that [`spine_pose`] writes: links and hinges.
     pub fn joint_count(&self) -> usize {
         self.masses.len() + self.hinges.len()
     }
@@ -160,7 +159,7 @@ impl Spine {
             rest: Transform::at(Vec3::new(0.0, 0.0, self.along(cut))),
         });
         let hinges = self.hinges.iter().enumerate().map(|(number, hinge)| Joint {
-            name: format!("fin_{number}_{}", if hinge.side > 0.0 { "left" } else { "right" }),
+            name: hinge.name(number),
             parent: Some(self.carrier(hinge) as u8),
             rest: Transform::at(hinge.position),
         });
@@ -181,8 +180,8 @@ impl Spine {
         ([self.masses.len() as u8 - 1, 0, 0, 0], [1.0, 0.0, 0.0, 0.0])
     }
 
-    /// The link that carries a fin.
-    fn carrier(&self, hinge: &FinHinge) -> usize {
+    /// The link that carries a hinge.
+    fn carrier(&self, hinge: &Hinge) -> usize {
         let share = ORIGIN - hinge.position.z / self.length;
         self.cuts[1..].iter().position(|&cut| share < cut).unwrap_or(self.masses.len() - 1)
     }
@@ -248,6 +247,10 @@ pub struct SwimState {
     pub fan: f32,
     /// How far the pair fins beat, 0 (folded) to 1.
     pub fanning: f32,
+    /// Phases of the left and of the right fin that rows, radians in 0..2π.
+    pub oars: [f32; 2],
+    /// How far the mouth is open, 0 to 1.
+    pub mouth: f32,
 }
 
 /// How a body moves at the moment, in its own lengths.
@@ -290,6 +293,24 @@ impl SwimState {
         let fanning = slow.max(0.8 * glide).max(0.1);
         self.fanning += (fanning - self.fanning) * math::relaxation(dt, 0.25);
         self.fan = wrap(self.fan + math::TAU * (1.2 + 0.4 * gait.cruise) * dt);
+        self.row(speed, stroke.turn, glide > BRAKING, dt);
+    }
+
+    /// Fins that row go round faster the faster the fish swims, forward; backward the inner one in a turn, and
+    /// both to brake.
+    pub fn row(&mut self, speed: f32, turn: f32, brakes: bool, dt: f32) {
+        let step = math::TAU * ROWING.max(ROWING * speed) * dt;
+        for (phase, side) in self.oars.iter_mut().zip([1.0, -1.0]) {
+            let backward = brakes || turn * side > ROWED_TURN;
+            *phase = wrap(*phase + if backward { -step } else { step });
+        }
+    }
+
+    /// Opens the mouth as far as wanted, 0 to 1, as fast as it goes.
+    pub fn gape(&mut self, wanted: f32, dt: f32) {
+        let wanted = if wanted.is_finite() { wanted.clamp(0.0, 1.0) } else { 0.0 };
+        let change = dt / GAPE_TIME;
+        self.mouth += (wanted - self.mouth).clamp(-change, change);
     }
 }
 
@@ -329,18 +350,6 @@ pub fn spine_pose(spine: &Spine, swim: &SwimState, out: &mut [Transform]) {
     pose_hinges(spine, swim, out);
 }
 
-/// Writes the poses of the fins, which go with the links that carry them: those must be posed already.
-pub(crate) fn pose_hinges(spine: &Spine, swim: &SwimState, out: &mut [Transform]) {
-    for (number, hinge) in spine.hinges.iter().enumerate() {
-        let carrier = spine.carrier(hinge);
-        let rest = Vec3::new(0.0, 0.0, spine.along(spine.cuts[carrier]));
-        let pose = out[carrier];
-        let rotation = pose.rotation() * fin_rotation(hinge, swim);
-        out[spine.link_count() + number] =
-            Transform::new(pose.point(hinge.position - rest), rotation, 1.0);
-    }
-}
-
 /// Yaw and lift that a turn adds at this share of the length.
 fn curve(swim: &SwimState, x: f32) -> (f32, f32) {
     let place = if x < ORIGIN { (ORIGIN - x) / ORIGIN } else { (ORIGIN - x) / (1.0 - ORIGIN) };
@@ -364,14 +373,6 @@ fn half_tangent(angle: f32) -> f32 {
     let half = 0.5 * angle;
     let square = half * half;
     half * (1.0 + square * (1.0 / 3.0 + square * (2.0 / 15.0)))
-}
-
-fn fin_rotation(hinge: &FinHinge, swim: &SwimState) -> Quat {
-    let beat = math::sin(swim.fan + if hinge.side > 0.0 { 0.0 } else { 2.6 });
-    let inside = (swim.bend[0] * hinge.side).max(0.0) / GREATEST_BEND;
-    let share = swim.fanning * (0.35 + 0.65 * beat) + 0.8 * inside;
-    let axis = hinge.axis * half_tangent(hinge.swing * share.clamp(-0.5, 1.0));
-    Quat::from_xyzw(axis.x, axis.y, axis.z, 1.0).normalize()
 }
 
 #[cfg(test)]

@@ -226,6 +226,7 @@ impl Body for Swimmer {
             lift: motion.turn[1],
         };
         motion.swim.advance(self.spine.gait(), &stroke, dt);
+        motion.swim.gape(intention.mouth, dt);
         let half_beat = side != (math::sin(motion.swim.phase) > 0.0);
         motion.stroke_ended = half_beat && motion.thrust > AUDIBLE_THRUST;
         Ok(())

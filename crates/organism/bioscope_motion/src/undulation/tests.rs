@@ -9,11 +9,12 @@ fn gait(style: Style, cruise: f32) -> Gait {
 }
 
 fn spine(style: Style, length: f32) -> Spine {
-    let hinge = |side: f32| FinHinge {
+    let hinge = |side: f32| Hinge {
         position: Vec3::new(0.06 * side * length, 0.0, 0.15 * length),
         axis: Vec3::Y,
         side,
         swing: 0.7,
+        part: Part::Flap,
     };
     let masses = vec![1.0, 2.0, 2.2, 1.6, 1.0, 0.5, 0.2];
     let cuts = Spine::even_cuts(masses.len());
@@ -191,4 +192,62 @@ proptest! {
         let poses = pose(&spine(Style::Mackerel, 0.1), &swim);
         prop_assert!(poses.iter().all(|pose| pose.position.is_finite() && pose.rotation().is_normalized()));
     }
+}
+
+#[test]
+fn oars_run_round_with_the_speed_backward_inside_a_turn_and_when_braking() {
+    let turned = |speed: f32, turn: f32, brakes: bool| {
+        let mut swim = SwimState::default();
+        for _ in 0..100 {
+            swim.row(speed, turn, brakes, 0.001);
+        }
+        swim.oars.map(|phase| if phase > math::PI { phase - math::TAU } else { phase })
+    };
+    let [left, right] = turned(2.0, 0.0, false);
+    assert!(left > 0.0 && (left - right).abs() < 1e-6);
+    assert!((turned(4.0, 0.0, false)[0] / left - 2.0).abs() < 1e-3, "in proportion to the speed");
+    assert!(turned(0.0, 0.0, false)[0] > 0.0, "never at rest");
+    let [left, right] = turned(2.0, 1.0, false);
+    assert!(left < 0.0 && right > 0.0, "a turn to the left");
+    let [left, right] = turned(2.0, -1.0, false);
+    assert!(left > 0.0 && right < 0.0, "a turn to the right");
+    assert!(turned(2.0, 0.0, true).iter().all(|&phase| phase < 0.0), "braking");
+}
+
+#[test]
+fn a_stroke_of_an_oar_is_one_turn_on_a_cone() {
+    let hinge = Hinge {
+        position: Vec3::ZERO,
+        axis: Vec3::Y,
+        side: 1.0,
+        swing: 0.6,
+        part: Part::Oar { across: Vec3::X },
+    };
+    let masses = vec![1.0; 4];
+    let cuts = Spine::even_cuts(4);
+    let spine = Spine::new(1.0, gait(Style::Mackerel, 1.0), cuts, masses, vec![hinge]).unwrap(); // numbers are in range
+    let tip = |phase: f32| {
+        let swim = SwimState { oars: [phase, 0.0], fanning: 1.0, ..SwimState::default() };
+        let fin = pose(&spine, &swim)[spine.link_count()];
+        fin.rotation() * Vec3::Z
+    };
+    assert!(tip(0.0).distance(tip(math::TAU)) < 1e-3, "a stroke ends where it began");
+    let middle = (tip(0.0) + tip(math::PI)).normalize();
+    for step in 0..12 {
+        let angle = middle.dot(tip(step as f32 * math::TAU / 12.0)).acos();
+        assert!((0.25..0.37).contains(&angle), "{angle} at {step}");
+    }
+}
+
+#[test]
+fn the_mouth_opens_and_shuts_in_time() {
+    let mut swim = SwimState::default();
+    swim.gape(1.0, 0.06);
+    assert!((0.4..0.6).contains(&swim.mouth));
+    swim.gape(f32::NAN, 0.01);
+    assert!(swim.mouth < 0.5);
+    for _ in 0..20 {
+        swim.gape(7.0, 0.02);
+    }
+    assert_eq!(swim.mouth, 1.0);
 }

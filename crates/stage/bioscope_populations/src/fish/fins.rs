@@ -1,7 +1,7 @@
 //! Fins as fans of rays between a base on the trunk and a free edge, in body lengths.
 
 use bioscope_core::{Quat, Vec3};
-use bioscope_motion::undulation::{FinHinge, ORIGIN};
+use bioscope_motion::undulation::{Hinge, ORIGIN, Part};
 
 use super::species::{FinLook, FishSpecies, MidlineFin, PairFin, Place, Side, TailFin};
 use super::trunk::Trunk;
@@ -27,7 +27,7 @@ pub struct Fin {
     /// Whether the rays of the two halves curve away from each other.
     fanned: bool,
     /// Hinge of a paired fin on the left side.
-    pub hinge: Option<FinHinge>,
+    pub hinge: Option<Hinge>,
 }
 
 /// All fins of a species, tail first.
@@ -99,6 +99,11 @@ fn pair_fin(pair: &PairFin, trunk: &Trunk) -> Fin {
     let along = (base[1] - base[0]).normalize_or(Vec3::NEG_Z);
     let axis = if along.cross(reach).x < 0.0 { -along } else { along };
     let spread = Quat::from_axis_angle(axis, pair.flare.to_radians());
+    let part = if pair.rows {
+        Part::Oar { across: (spread * reach).cross(axis).normalize_or(Vec3::X) }
+    } else {
+        Part::Flap
+    };
     let edge: Vec<Vec3> = flat.iter().map(|&point| base[0] + spread * (point - base[0])).collect();
     Fin {
         look: pair.look.clone(),
@@ -107,17 +112,30 @@ fn pair_fin(pair: &PairFin, trunk: &Trunk) -> Fin {
         edge,
         normal: axis.cross(spread * reach).normalize_or(Vec3::X),
         fanned: false,
-        hinge: Some(FinHinge { position: middle, axis, side: 1.0, swing: pair.swing.to_radians() }),
+        hinge: Some(Hinge {
+            position: middle,
+            axis,
+            side: 1.0,
+            swing: pair.swing.to_radians(),
+            part,
+        }),
     }
 }
 
 /// The same hinge on the right side.
-pub fn mirrored(hinge: FinHinge) -> FinHinge {
-    let (position, axis) = (hinge.position, hinge.axis);
-    FinHinge {
+pub fn mirrored(hinge: Hinge) -> Hinge {
+    let position = hinge.position;
+    // Axes of rotation keep what lies across the mirror.
+    let across_mirror = |axis: Vec3| Vec3::new(axis.x, -axis.y, -axis.z);
+    let part = match hinge.part {
+        Part::Oar { across } => Part::Oar { across: across_mirror(across) },
+        part => part,
+    };
+    Hinge {
         position: Vec3::new(-position.x, position.y, position.z),
-        axis: Vec3::new(axis.x, -axis.y, -axis.z),
+        axis: across_mirror(hinge.axis),
         side: -hinge.side,
+        part,
         ..hinge
     }
 }

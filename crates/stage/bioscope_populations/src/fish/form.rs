@@ -4,13 +4,16 @@ use std::sync::Arc;
 
 use bioscope_core::Vec3;
 use bioscope_geometry::{Material, Mesh, Skin, Texture};
-use bioscope_motion::undulation::{FinHinge, ORIGIN, Spine};
+use bioscope_motion::undulation::{Hinge, ORIGIN, Spine};
 
 use super::atlas::{Atlas, Cell};
 use super::fins::{self, Fin};
 use super::paint;
 use super::species::{Detail, Eye, FishSpecies};
 use super::trunk::Trunk;
+use mouth::Slit;
+
+mod mouth;
 
 /// What is needed to show fishes of one species.
 #[derive(Clone, Debug)]
@@ -100,9 +103,15 @@ fn spine(species: &FishSpecies, trunk: &Trunk, fins: &[Fin], links: usize) -> Sp
         .iter()
         .filter_map(|fin| fin.hinge)
         .flat_map(|hinge| [hinge, fins::mirrored(hinge)])
-        .map(|hinge| FinHinge { position: hinge.position * length, ..hinge });
+        .chain(jaw(species, trunk))
+        .map(|hinge| Hinge { position: hinge.position * length, ..hinge });
     Spine::new(length, species.gait(), cuts.clone(), masses.collect(), hinges.collect())
         .expect("a species that was checked has a length and a body")
+}
+
+/// The hinge of the jaw, in body lengths; fishes of a school are too small for a mouth that opens.
+fn jaw(species: &FishSpecies, trunk: &Trunk) -> Option<Hinge> {
+    (species.detail == Detail::Fine).then(|| mouth::hinge(&species.mouth, trunk))
 }
 
 /// A part of the body, in body lengths.
@@ -110,6 +119,15 @@ struct Part {
     mesh: Mesh,
     /// The joint that carries the whole part; none for the spine.
     joint: Option<u8>,
+    /// How far each vertex goes with the jaw instead; empty where none does.
+    jaw: Vec<f32>,
+}
+
+impl Part {
+    /// A part that goes with the spine, or with a joint.
+    fn new(mesh: Mesh, joint: Option<u8>) -> Self {
+        Self { mesh, joint, jaw: Vec::new() }
+    }
 }
 
 /// The parts of a body before they become triangles.
@@ -139,18 +157,17 @@ impl Body {
             Detail::Plain => PLAIN,
             Detail::Fine => FINE,
         };
-        let level = |level: Level| (level.pixels, Arc::new(self.mesh(&species.eye, level)));
+        let level = |level: Level| (level.pixels, Arc::new(self.mesh(species, level)));
         let levels = coarser.into_iter().map(level).collect();
-        Mesh { levels, ..self.mesh(&species.eye, finest) }
+        Mesh { levels, ..self.mesh(species, finest) }
     }
 
-    fn mesh(&self, eye: &Eye, level: Level) -> Mesh {
-        let trunk = trunk_mesh(&self.trunk, self.atlas.trunk, level);
-        let mut parts = vec![Part { mesh: trunk, joint: None }];
+    fn mesh(&self, species: &FishSpecies, level: Level) -> Mesh {
+        let mut parts = vec![self.trunk_part(species, level)];
         if level.eye > 0 {
-            let eye = eye_mesh(eye, &self.trunk, self.atlas.eye, level.eye);
-            parts.push(Part { mesh: mirror(&eye), joint: None });
-            parts.push(Part { mesh: eye, joint: None });
+            let eye = eye_mesh(&species.eye, &self.trunk, self.atlas.eye, level.eye);
+            parts.push(Part::new(mirror(&eye), None));
+            parts.push(Part::new(eye, None));
         }
         let mut joint = self.spine.link_count() as u8;
         for (fin, &cell) in self.fins.iter().zip(&self.atlas.fins) {
@@ -162,12 +179,26 @@ impl Body {
                 fin_mesh(fin, &self.trunk, cell, level)
             };
             if hinged {
-                parts.push(Part { mesh: mirror(&mesh), joint: Some(joint + 1) });
+                parts.push(Part::new(mirror(&mesh), Some(joint + 1)));
                 joint += 2;
             }
-            parts.push(Part { mesh, joint: hinged.then(|| joint - 2) });
+            parts.push(Part::new(mesh, hinged.then(|| joint - 2)));
         }
         self.join(&parts)
+    }
+
+    /// The trunk; near by, where eyes stand out, its mouth can open.
+    fn trunk_part(&self, species: &FishSpecies, level: Level) -> Part {
+        let mesh = trunk_mesh(&self.trunk, self.atlas.trunk, level);
+        let has_mouth = level.eye > 0 && species.detail == Detail::Fine;
+        match has_mouth.then(|| Slit::new(&species.mouth, &self.trunk, level)).flatten() {
+            Some(slit) => {
+                let pupil = self.atlas.eye.uv(0.5, 0.5);
+                let mouth::Slitted { mesh, jaw } = slit.cut(mesh, pupil);
+                Part { mesh, joint: None, jaw }
+            }
+            None => Part::new(mesh, None),
+        }
     }
 
     /// One skinned mesh of all parts, in metres.
@@ -175,9 +206,13 @@ impl Body {
         let mut whole = Mesh::default();
         let mut skin = Skin { joints: self.spine.joints(), indices: vec![], weights: vec![] };
         for part in parts {
-            for point in &part.mesh.positions {
+            for (vertex, point) in part.mesh.positions.iter().enumerate() {
+                let jaw = part.jaw.get(vertex).copied().unwrap_or(0.0);
                 let (indices, weights) = match part.joint {
                     Some(joint) => ([joint, 0, 0, 0], [1.0, 0.0, 0.0, 0.0]),
+                    None if jaw > 0.0 => {
+                        ([0, self.spine.joint_count() as u8 - 1, 0, 0], [1.0 - jaw, jaw, 0.0, 0.0])
+                    }
                     None => self.spine.weights(ORIGIN - point.z),
                 };
                 skin.indices.push(indices);

@@ -217,6 +217,9 @@ pub struct PairFin {
     /// By how many degrees it beats.
     #[serde(default)]
     pub swing: f32,
+    /// Whether they row instead of flapping.
+    #[serde(default)]
+    pub rows: bool,
     /// How it looks.
     pub look: FinLook,
 }

@@ -122,22 +122,8 @@ fn whole(mesh: &Mesh, spine: &Spine) {
 fn bending_hardly_stretches_the_skin() {
     for (species, body) in bodies() {
         let mesh = body.meshes(&species);
-        let skin = mesh.skin.as_ref().expect("a fish bends");
-        let mut poses = vec![Transform::IDENTITY; body.spine.joint_count()];
         let swim = SwimState { phase: 1.0, amplitude: 1.0, bend: [0.3, 0.3], ..Default::default() };
-        spine_pose(&body.spine, &swim, &mut poses);
-        let bent: Vec<Vec3> = (0..mesh.positions.len())
-            .map(|vertex| {
-                let parts = skin.indices[vertex].iter().zip(skin.weights[vertex]);
-                parts
-                    .map(|(&joint, weight)| {
-                        let joint = usize::from(joint);
-                        let pose = poses[joint].compose(&skin.joints[joint].rest.inverse());
-                        pose.point(mesh.positions[vertex]) * weight
-                    })
-                    .sum()
-            })
-            .collect();
+        let bent = posed(&mesh, &body.spine, &swim);
         let ridge = |points: &[Vec3]| -> f32 {
             let Level { rings, sides, .. } = level(&species, 0);
             (1..rings)
@@ -146,6 +132,73 @@ fn bending_hardly_stretches_the_skin() {
         };
         let stretch = ridge(&bent) / ridge(&mesh.positions);
         assert!((stretch - 1.0).abs() < 0.02, "{}: {stretch}", species.name);
+    }
+}
+
+/// The skin of a mesh in the pose of `swim`.
+fn posed(mesh: &Mesh, spine: &Spine, swim: &SwimState) -> Vec<Vec3> {
+    let skin = mesh.skin.as_ref().expect("a fish bends");
+    let mut poses = vec![Transform::IDENTITY; spine.joint_count()];
+    spine_pose(spine, swim, &mut poses);
+    let place = |vertex: usize| {
+        let parts = skin.indices[vertex].iter().zip(skin.weights[vertex]);
+        parts
+            .map(|(&joint, weight)| {
+                let joint = usize::from(joint);
+                let pose = poses[joint].compose(&skin.joints[joint].rest.inverse());
+                pose.point(mesh.positions[vertex]) * weight
+            })
+            .sum()
+    };
+    (0..mesh.positions.len()).map(place).collect()
+}
+
+#[test]
+fn mouths_close_without_a_gap_and_open_downward() {
+    for (species, body) in bodies().filter(|(species, _)| species.detail == Detail::Fine) {
+        let mesh = body.meshes(&species);
+        let shut = posed(&mesh, &body.spine, &SwimState::default());
+        for (point, rest) in shut.iter().zip(&mesh.positions) {
+            assert!(point.distance(*rest) < 1e-4 * species.length, "{}", species.name);
+        }
+        let wide = SwimState { mouth: 1.0, ..SwimState::default() };
+        let open = posed(&mesh, &body.spine, &wide);
+        let (mut gape, mut moved) = (0.0f32, 0);
+        for (open, shut) in open.iter().zip(&shut) {
+            let way = *open - *shut;
+            gape = gape.max(-way.y / species.length);
+            moved += usize::from(way.length() > 1e-4 * species.length);
+            assert!(way.x.abs() < 1e-5 * species.length, "{}: the jaw goes straight", species.name);
+        }
+        assert!((0.005..0.1).contains(&gape), "{}: {gape} of the length", species.name);
+        assert!((8..400).contains(&moved), "{}: {moved} vertices", species.name);
+    }
+}
+
+#[test]
+fn only_the_lips_part() {
+    for (species, body) in bodies().filter(|(species, _)| species.detail == Detail::Fine) {
+        let finest = level(&species, 0);
+        let trunk = trunk_mesh(&body.trunk, body.atlas.trunk, finest);
+        let count = trunk.triangles.len();
+        let slit = Slit::new(&species.mouth, &body.trunk, finest).expect("fine enough");
+        let cut = slit.cut(trunk, [0.0; 2]);
+        let mesh = &cut.mesh;
+        assert_eq!(cut.jaw.len(), mesh.positions.len());
+        // Vertices at one place go together, except where a lower lip parts from an upper one.
+        let mut parted = 0;
+        for first in 0..mesh.positions.len() {
+            for other in first + 1..mesh.positions.len() {
+                let apart = (cut.jaw[first] - cut.jaw[other]).abs() > 1e-6;
+                parted += usize::from(apart && mesh.positions[first] == mesh.positions[other]);
+            }
+        }
+        assert!(parted >= 3, "{}: {parted}", species.name);
+        let outside = Mesh { triangles: mesh.triangles[..count].to_vec(), ..mesh.clone() };
+        let edges = edges(&outside);
+        for ([from, to], times) in &edges {
+            assert_eq!((*times, edges.get(&[*to, *from])), (1, Some(&1)), "{}", species.name);
+        }
     }
 }
 
