@@ -27,7 +27,7 @@ const SLOWEST_AMPLITUDE: f32 = 0.6;
 const WANDER: f32 = 0.15;
 /// Strokes per second of a fin that rows at up to one body length per second; in proportion to the speed above (choice).
 const ROWING: f32 = 0.8;
-/// Turn from which the inner fin rows backward, radians per second, and share of gliding from which both do (choice).
+/// Turn from which the inner fin rows backward, radians per second, and share of gliding or braking from which both do (choice).
 const ROWED_TURN: f32 = 0.4;
 const BRAKING: f32 = 0.6;
 /// Seconds in which the mouth opens (choice).
@@ -264,6 +264,8 @@ pub struct Stroke {
     pub turn: f32,
     /// Lift of the head, radians per second.
     pub lift: f32,
+    /// How hard it means to brake, 0 to 1.
+    pub brake: f32,
 }
 
 impl SwimState {
@@ -293,7 +295,7 @@ impl SwimState {
         let fanning = slow.max(0.8 * glide).max(0.1);
         self.fanning += (fanning - self.fanning) * math::relaxation(dt, 0.25);
         self.fan = wrap(self.fan + math::TAU * (1.2 + 0.4 * gait.cruise) * dt);
-        self.row(speed, stroke.turn, glide > BRAKING, dt);
+        self.row(speed, stroke.turn, glide.max(stroke.brake) > BRAKING, dt);
     }
 
     /// Fins that row go round faster the faster the fish swims, forward; backward the inner one in a turn, and

@@ -21,6 +21,8 @@ pub struct MuscleSwimmer {
     preset: String,
     fish: Swimmers,
     spine: Arc<Spine>,
+    /// Rowing fins and the mouth, which none of the simulated muscles moves.
+    swim: SwimState,
 }
 
 impl MuscleSwimmer {
@@ -33,7 +35,7 @@ impl MuscleSwimmer {
         let cruise = f64::from(spine.gait().cruise);
         let mut fish = Swimmers::new(FishModel::named(preset)?, cruise)?;
         fish.add([0.0; 3], Quat::IDENTITY, f64::from(spine.length()))?;
-        Ok(Self { preset: preset.to_owned(), fish, spine })
+        Ok(Self { preset: preset.to_owned(), fish, spine, swim: SwimState::default() })
     }
 
     /// The fish that [`save`](Body::save) stored.
@@ -41,9 +43,10 @@ impl MuscleSwimmer {
     /// # Errors
     /// For damaged bytes.
     pub fn restore(spine: Arc<Spine>, bytes: &[u8]) -> Result<Self> {
-        let (preset, fish): (String, Vec<u8>) = state::from_bytes("muscle_swimmer", bytes)?;
+        let (preset, fish, swim): (String, Vec<u8>, SwimState) =
+            state::from_bytes("muscle_swimmer", bytes)?;
         let fish = Swimmers::restore_one(FishModel::named(&preset)?, &fish)?;
-        Ok(Self { preset, fish, spine })
+        Ok(Self { preset, fish, spine, swim })
     }
 
     /// Takes up what the mind intends and what acts on it; the next [`advance`](Self::advance_together) does it.
@@ -68,6 +71,10 @@ impl MuscleSwimmer {
         if influence.force != Vec3::ZERO {
             self.fish.kick(0, influence.force * dt);
         }
+        let speed = self.fish.velocity(0).length() / length;
+        let brakes = intention.brake > 0.5 || intention.speed < 0.0;
+        self.swim.row(speed, self.fish.motor(0).bend, brakes, dt);
+        self.swim.gape(intention.mouth, dt);
         Ok(())
     }
 
@@ -178,7 +185,7 @@ impl Body for MuscleSwimmer {
             fan: motor.fins.beat,
             fanning: motor.fins.spread,
             bend: [0.5 * motor.bend; 2],
-            ..SwimState::default()
+            ..self.swim
         };
         let shape = &self.fish.model().design.shape;
         pose_from_nodes(&self.spine, shape, &self.fish.local_nodes(0), &swim, out);
@@ -201,6 +208,6 @@ impl Body for MuscleSwimmer {
     }
 
     fn save(&self) -> Result<Vec<u8>> {
-        Ok(state::to_bytes(&(&self.preset, self.fish.save_one()?)))
+        Ok(state::to_bytes(&(&self.preset, self.fish.save_one()?, self.swim)))
     }
 }

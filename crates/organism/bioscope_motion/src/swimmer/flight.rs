@@ -224,6 +224,7 @@ impl Body for Swimmer {
             acceleration: acceleration / length,
             turn: motion.turn[0],
             lift: motion.turn[1],
+            brake: if intention.speed < 0.0 { 1.0 } else { intention.brake },
         };
         motion.swim.advance(self.spine.gait(), &stroke, dt);
         motion.swim.gape(intention.mouth, dt);

@@ -185,7 +185,7 @@ proptest! {
     ) {
         let mut swim = SwimState::default();
         for _ in 0..50 {
-            swim.advance(gait(Style::Mackerel, 1.5), &Stroke { speed, acceleration, turn, lift: rise }, dt);
+            swim.advance(gait(Style::Mackerel, 1.5), &Stroke { speed, acceleration, turn, lift: rise, brake: 0.0 }, dt);
         }
         prop_assert!((0.0..=math::TAU).contains(&swim.phase) && (0.0..=1.2).contains(&swim.amplitude));
         prop_assert!(swim.bend.iter().all(|bend| bend.abs() <= GREATEST_BEND) && swim.lift.abs() <= 0.3);

@@ -11,8 +11,8 @@ use super::super::species::{Line, Place};
 use super::super::trunk::Trunk;
 use super::{Level, station};
 
-/// How far a jaw opens, radians (choice).
-const SWING: f32 = 0.6;
+/// How far a jaw opens, and one on the underside, radians (choice).
+const SWING: [f32; 2] = [0.5, 0.3];
 /// Mouths that begin lower than this are on the underside, as in sharks.
 const UNDERSIDE: f32 = 0.1;
 /// How far behind an underside mouth its jaw ends, in lengths of the mouth.
@@ -41,11 +41,15 @@ pub(super) struct Slitted {
 /// The hinge of the jaw, in body lengths.
 pub(super) fn hinge(mouth: &Line, trunk: &Trunk) -> Hinge {
     let [front, corner] = ends(mouth);
-    let at = if front[1] < UNDERSIDE { jaw_end(front, corner) } else { corner[0] };
+    let (at, swing) = if front[1] < UNDERSIDE {
+        (jaw_end(front, corner), SWING[1])
+    } else {
+        (corner[0], SWING[0])
+    };
     let at = at.clamp(0.01, 0.19);
     let y = trunk.bottom(at) + (trunk.top(at) - trunk.bottom(at)) * corner[1];
     let position = Vec3::new(0.0, y, ORIGIN - at);
-    Hinge { position, axis: Vec3::X, side: 0.0, swing: SWING, part: Part::Jaw }
+    Hinge { position, axis: Vec3::X, side: 0.0, swing, part: Part::Jaw }
 }
 
 fn ends(mouth: &Line) -> [Place; 2] {

@@ -139,6 +139,7 @@ impl Fish {
             acceleration: (step.speeds[1] - step.speeds[0]) / step.dt,
             turn: math::atan2(own.x, own.z) / step.dt,
             lift: math::asin(own.y.clamp(-1.0, 1.0)) / step.dt,
+            brake: 0.0,
         };
         self.swim.advance(gait, &stroke, step.dt);
     }
