@@ -21,8 +21,8 @@ def world(seed: int) -> bio.World:
     land = bio.World(seed=seed, dt=1 / 30, title="light_trees")
     landscape.rolling(land, extent=70.0, relief=3.0, flat=14.0)
     landscape.daylight(land)
-    landscape.meadow(land, radius=26.0, tufts=2600)
-    land.add(trees(count=14, radius=11.0))
+    landscape.meadow(land, radius=20.0, tufts=3000)
+    land.add(trees(count=18, radius=10.0, start=4))
     _place_cameras(land)
     return land
 
@@ -51,8 +51,8 @@ def trees(count: int, radius: float, *, start: int = 2, rate: float = _YEAR / 4)
 
 def _place_cameras(land: bio.World) -> None:
     cameras = land.cameras
-    cameras.fixed("meadow", position=(5.0, 2.2, 27.0), target=(0.0, 5.2, 0.0), field_of_view=46)
-    cameras.orbit("round", target=(0.0, 4.5, 0.0), radius=25.0, height=5.0, period=90)
+    cameras.fixed("meadow", position=(4.0, 1.9, 21.0), target=(0.0, 4.0, 0.0), field_of_view=46)
+    cameras.orbit("round", target=(0.0, 3.6, 0.0), radius=19.0, height=2.6, period=90)
     cameras.fixed("under", position=(2.5, 1.5, 12.0), target=(0.0, 4.6, -2.0), field_of_view=58)
     cameras.fixed("above", position=(14.0, 24.0, 16.0), target=(0.0, 3.0, 0.0), field_of_view=44)
     land.shots = [("round", 12.0), ("under", 6.0), ("above", 6.0), ("meadow", 6.0)]
