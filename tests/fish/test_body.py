@@ -148,6 +148,15 @@ def test_a_passive_fish_floats_and_is_carried_by_the_current():
     assert abs(tank.center[1]) < 0.1 * tank.length
 
 
+@pytest.mark.capability("TF-022")
+def test_the_numbering_of_the_nodes_decides_the_bandwidth():
+    tank = bio.fish.Tank("anthias")
+    ends = tank.units[:, :2].astype(int)
+    assert np.abs(np.diff(ends, axis=1)).max() == tank.half_bandwidth == 7
+    moved = np.where(ends == 22, 1, np.where(ends == 0, 0, ends + 1))
+    assert np.abs(np.diff(moved, axis=1)).max() == 21
+
+
 @pytest.mark.capability("TF-020", "TF-023")
 def test_the_implicit_step_holds_where_the_others_break():
     def holds(integrator: str, step: float, count: int = 4000) -> bool:
