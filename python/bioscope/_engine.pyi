@@ -17,6 +17,7 @@ _Parameter: TypeAlias = tuple[str, str, str, float, float, float, str, str, floa
 
 __all__ = [
     "VERSION",
+    "AnimateFile",
     "Batch",
     "Camera",
     "Encoder",
@@ -48,6 +49,7 @@ __all__ = [
     "interpret",
     "read_colors",
     "resident",
+    "share",
 ]
 
 VERSION: Final[str]
