@@ -29,6 +29,6 @@ for source in fuzz/fuzz_targets/*.rs; do
   fi
   echo "fuzz: $target for $seconds s"
   "$CARGO_TARGET_DIR/$host/release/$target" "$corpus" -max_total_time="$seconds" -timeout=20 \
-    -rss_limit_mb=2048 -max_len=4096 -artifact_prefix=fuzz/artifacts/ -verbosity=0 \
-    -print_final_stats=0
+    -rss_limit_mb=2048 -max_len=4096 -artifact_prefix=fuzz/artifacts/ \
+    > "$corpus.log" 2>&1 || { tail -n 60 "$corpus.log" >&2; exit 1; }
 done
