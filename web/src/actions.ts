@@ -10,10 +10,17 @@ export interface Action {
   keyLabel?: string;
   /** What it does, for help and tooltips. */
   meaning: string;
-  group: "Time" | "Looking" | "Keeping" | "Page";
+  group: "Time" | "Looking" | "Changing" | "Keeping" | "Page";
   sign?: SignName;
   run(viewer: Viewer): void;
 }
+
+/** Opens or closes a panel of the dock. */
+function panelAction(name: PanelName, key: string, meaning: string): Action {
+  return { name, key, meaning, group: "Changing", sign: name, run: (viewer) => viewer.panels.toggle(name) };
+}
+
+type PanelName = "numbers" | "layout" | "physics" | "behavior" | "habits" | "view";
 
 /** All actions, in the order of the help overlay. */
 export const ACTIONS: Action[] = [
@@ -112,6 +119,20 @@ export const ACTIONS: Action[] = [
     run: (viewer) => viewer.toggleAnnotations(),
   },
   {
+    name: "become",
+    key: "b",
+    keyLabel: "B",
+    meaning: "become the selected fish: steer it yourself; again: let go",
+    group: "Changing",
+    run: (viewer) => viewer.workshop.steering.toggle(),
+  },
+  panelAction("numbers", "1", "how many there are of each; newcomers"),
+  panelAction("layout", "2", "a map on which things are dragged; scripts"),
+  panelAction("physics", "3", "bodies, water, current, time step"),
+  panelAction("behavior", "4", "drives, intention and temper of a fish"),
+  panelAction("habits", "5", "habits and sex of a fish"),
+  panelAction("view", "6", "what a fish sees; labels, views"),
+  {
     name: "screenshot",
     key: "p",
     keyLabel: "P",
@@ -191,13 +212,19 @@ export const ACTIONS: Action[] = [
 
 /** The action of a key press; undefined for keys without one and while text is being typed. */
 export function actionFor(event: KeyboardEvent): Action | undefined {
-  if (event.ctrlKey || event.metaKey || event.altKey) return undefined;
+  if (event.ctrlKey || event.metaKey || event.altKey || isTyping(event)) return undefined;
   const target = event.composedPath()[0];
-  if (target instanceof HTMLInputElement && !["range", "checkbox", "button"].includes(target.type))
-    return undefined;
-  if (target instanceof HTMLTextAreaElement || target instanceof HTMLSelectElement) return undefined;
+  const slides = target instanceof HTMLInputElement && target.type === "range";
+  if (slides && event.key.startsWith("Arrow")) return undefined;
   const exact = ACTIONS.find((action) => action.key === event.key);
   return exact ?? ACTIONS.find((action) => action.key === event.key.toLowerCase());
+}
+
+/** Whether a key goes into a field of text. */
+export function isTyping(event: KeyboardEvent): boolean {
+  const target = event.composedPath()[0];
+  if (target instanceof HTMLInputElement) return !["range", "checkbox", "button"].includes(target.type);
+  return target instanceof HTMLTextAreaElement || target instanceof HTMLSelectElement;
 }
 
 /** The action of this name. */

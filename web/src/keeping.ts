@@ -154,19 +154,23 @@ export class Keeping {
 
   /** What a link to this moment restores. */
   private describe(): Shared | null {
-    const { session, loop, cameras, parameters } = this.viewer;
+    const { session, loop, parameters } = this.viewer;
     if (!session.hello || !loop.frame) return null;
-    const { position, rotation } = cameras.view;
-    const target = new Vector3(0, 0, -AHEAD).applyQuaternion(rotation).add(position);
     return {
       world: session.hello.world,
       seed: session.hello.seed,
       tick: loop.frame.tick,
       settings: [...changedSettings(parameters.owners, (owner, one) => parameters.initialOf(owner, one))],
-      camera: cameras.name,
-      eye: position.toArray(),
-      target: target.toArray(),
+      ...this.view(),
     };
+  }
+
+  /** How and from where one looks. */
+  view(): Pick<Shared, "camera" | "eye" | "target"> {
+    const { cameras } = this.viewer;
+    const { position, rotation } = cameras.view;
+    const target = new Vector3(0, 0, -AHEAD).applyQuaternion(rotation).add(position);
+    return { camera: cameras.name, eye: position.toArray(), target: target.toArray() };
   }
 
   /** At the first greeting: what a share link asks for, else the world's own cameras. */

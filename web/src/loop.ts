@@ -209,6 +209,7 @@ export class FrameLoop {
       };
     }
     marks.draw(cameras.camera, ring, annotations ? frame.annotations : undefined);
+    if (marks.labels) marks.drawLabels(cameras.camera, stage.labels());
   }
 
   private resize(): void {

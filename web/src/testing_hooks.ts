@@ -27,6 +27,12 @@ export interface Hooks {
   readonly recorded: { frames: number; bytes: number };
   readonly held: { meshes: number; materials: number; textures: number; batches: number };
   readonly notices: string[];
+  /** How many there are of each population. */
+  readonly counts: Record<string, number>;
+  /** The last point of the chart of drives: seconds, hunger, libido, fear; null without one. */
+  readonly drives: number[] | null;
+  /** Whom the person steers, 0 for nobody. */
+  readonly steered: number;
   /** All that is alive. */
   instances(): OnScreen[];
   /** Pixels of the retina that is shown, four bytes each; null if none is. */
@@ -84,9 +90,19 @@ export function exposeForTests(viewer: Viewer): void {
         (card) => card.querySelector(".bio-text")?.textContent ?? "",
       );
     },
+    get counts() {
+      return Object.fromEntries(viewer.workshop.residents.all.map((one) => [one.name, one.count]));
+    },
+    get drives() {
+      return viewer.workshop.behavior.latest;
+    },
+    get steered() {
+      return viewer.workshop.steering.id;
+    },
     instances: () => instancesOf(viewer),
     retinaPixels: () => {
-      const pixels = inspector.retina.pixels();
+      const open = viewer.panels.isOpen("view");
+      const pixels = (open ? viewer.workshop.view.retina : inspector.retina).pixels();
       return pixels ? [...pixels] : null;
     },
   };

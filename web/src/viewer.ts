@@ -1,5 +1,5 @@
 import type { WebGLRenderer } from "three";
-import { actionFor } from "./actions";
+import { actionFor, isTyping } from "./actions";
 import { Cameras } from "./camera/cameras";
 import { Inspector } from "./inspector/inspector";
 import { ParameterPane, ParameterStore } from "./inspector/parameters";
@@ -23,6 +23,8 @@ import { Picker } from "./scene/picker";
 import { Stage } from "./scene/stage";
 import type { PageSource } from "./share/page_copy";
 import { injectStyles } from "./styles";
+import { Dock } from "./workshop/dock";
+import { Workshop } from "./workshop/workshop";
 
 /** Steps of the world's speed, times real time. */
 const SPEEDS = [0.05, 0.1, 0.25, 0.5, 1, 2, 4, 8, 16, 32, 64, 100];
@@ -48,9 +50,11 @@ export class Viewer {
   readonly recorder = new Recorder();
   readonly controls: Controls;
   readonly keeping: Keeping;
+  readonly workshop: Workshop;
   readonly loop: FrameLoop;
   /** Whether what animals sense and decide is shown. */
   annotations = false;
+  private readonly dock: Dock;
   private readonly dialog: RestartDialog;
   private readonly populations: Populations;
   private readonly events: EventList;
@@ -73,13 +77,16 @@ export class Viewer {
     this.cameras = new Cameras(renderer.domElement);
     this.selection = new Selection(this.session, this.stage);
     this.parameters = new ParameterStore(this.session);
-    this.inspector = new Inspector(this.session, this.parameters, select);
+    const species = (id: number) => this.stage.find(id)?.batch.layout.species ?? "";
+    this.inspector = new Inspector(this.session, this.parameters, select, species);
     this.populations = new Populations(this.session);
     this.events = new EventList(this.session, select);
     this.controls = new Controls(this);
     this.dialog = new RestartDialog(this.session);
     this.picker = new Picker(this.stage);
     this.keeping = new Keeping(this, source);
+    this.workshop = new Workshop(this);
+    this.dock = new Dock(this);
     this.loop = new FrameLoop(this);
     this.watch = new LinkWatch(this);
     this.assemble(renderer.domElement);
@@ -147,7 +154,9 @@ export class Viewer {
 
   /** Closes the topmost thing that is open; then selects nothing. */
   dismiss(): void {
-    if (this.help.close() || this.dialog.close() || this.panels.close()) return;
+    const { steering } = this.workshop;
+    if (this.help.close() || this.dialog.close()) return;
+    if (steering.end() || this.panels.close()) return;
     this.selection.select(0);
   }
 
@@ -156,12 +165,14 @@ export class Viewer {
     this.populations.refresh();
     this.events.refresh();
     this.inspector.refresh();
+    this.workshop.refresh();
   }
 
   private assemble(canvas: HTMLCanvasElement): void {
     canvas.className = "bio-picture";
     const right = element("div", { class: "bio-right" }, this.inspector.element);
-    this.root.append(canvas, this.marks.element, this.panels.element, right, this.controls.element);
+    this.root.append(canvas, this.marks.element, this.dock.element, this.panels.element, right);
+    this.root.append(this.controls.element);
     this.root.append(this.notices.element, this.help.element, this.dialog.element);
     const pane = new ParameterPane(this.parameters, () => this.parameters.owners);
     this.panels.add({ name: "parameters", title: "Parameters", body: pane.element });
@@ -178,18 +189,26 @@ export class Viewer {
     session.on("snapshot", ({ name, bytes }) => this.keeping.saveSnapshot(name, bytes));
     selection.changed = (id, species) => {
       this.inspector.open(id, species);
+      this.workshop.selected(id);
       if (id === 0 && ["eye", "follow"].includes(cameras.name)) cameras.use("free");
     };
     selection.lost = (species) =>
       this.notices.tell({ level: "info", text: `The selected ${species} is no longer in the world.` });
     cameras.changed = (name) => this.controls.showCamera(name);
-    this.panels.changed = (name, open) => this.controls.mark(name, open);
+    this.panels.changed = (name, open) => {
+      this.controls.mark(name, open);
+      this.dock.mark(name, open);
+      if (name === "view" && !open) selection.look({ pan: 0, tilt: 0, both: false });
+    };
   }
 
   private listen(): void {
     const { signal } = this.stopping;
     const keys: EventTarget = this.host === document.body ? window : this.root;
+    const { steering } = this.workshop;
     keys.addEventListener("keydown", (event) => this.press(event as KeyboardEvent), { signal });
+    keys.addEventListener("keyup", (event) => void steering.press(event as KeyboardEvent, false), { signal });
+    window.addEventListener("blur", () => steering.letGo(), { signal });
     for (const kind of ["pointermove", "pointerdown", "keydown"]) {
       this.root.addEventListener(kind, () => this.wake(), { signal });
     }
@@ -197,12 +216,18 @@ export class Viewer {
     let from: PointerEvent | null = null;
     const down = (event: PointerEvent) => {
       from = event;
+      if (steering.id !== 0) return this.steer(event);
       if (event.button !== 0 || event.pointerType === "touch") this.cameras.touched();
     };
     const moved = (event: PointerEvent) => {
+      if (steering.id !== 0) return this.steer(event);
       if (from && event.buttons && wayBetween(from, event) > CLICK_WAY) this.cameras.touched();
     };
     const up = (event: PointerEvent) => {
+      if (steering.id !== 0) {
+        from = null;
+        return steering.point(null);
+      }
       if (!from || event.button !== 0) return;
       const click = wayBetween(from, event) <= CLICK_WAY && event.timeStamp - from.timeStamp < CLICK_TIME;
       from = null;
@@ -216,11 +241,20 @@ export class Viewer {
     canvas.addEventListener("webglcontextlost", () => this.watch.graphicsLost(), { signal });
   }
 
+  /** Steers towards the mouse while its button is held; the camera stays. */
+  private steer(event: PointerEvent): void {
+    event.stopImmediatePropagation();
+    if ((event.buttons & 1) === 0) return;
+    const box = this.stage.renderer.domElement.getBoundingClientRect();
+    const [x, y] = [(event.clientX - box.left) / box.width, (event.clientY - box.top) / box.height];
+    this.workshop.steering.point([2 * x - 1, 2 * y - 1]);
+  }
+
   private press(event: KeyboardEvent): void {
-    const action = actionFor(event);
-    if (!action) return;
-    event.preventDefault();
-    action.run(this);
+    const steers = !isTyping(event) && this.workshop.steering.press(event, true);
+    const action = steers ? undefined : actionFor(event);
+    if (steers || action) event.preventDefault();
+    action?.run(this);
   }
 
   private pick(event: PointerEvent): void {

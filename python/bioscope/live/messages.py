@@ -7,13 +7,16 @@ from typing import Annotated
 import msgspec
 
 from bioscope.errors import FormatError
+from bioscope.world.changes import Addition
 
-LARGEST_MESSAGE = 64 * 1024
+LARGEST_MESSAGE = 128 * 1024
 """Bytes; longer messages are refused."""
 
 Ticks = Annotated[int, msgspec.Meta(ge=1, le=100_000)]
 Tick = Annotated[int, msgspec.Meta(ge=0, le=10_000_000)]
 Word = Annotated[str, msgspec.Meta(max_length=200)]
+Id = Annotated[int, msgspec.Meta(ge=0, lt=2**32)]
+Angle = Annotated[float, msgspec.Meta(ge=-180.0, le=180.0)]
 
 
 class Command(msgspec.Struct, tag_field="do", forbid_unknown_fields=True, frozen=True):
@@ -70,10 +73,16 @@ class Restart(Command, tag="restart", frozen=True):
 class Select(Command, tag="select", frozen=True):
     """Inspect this individual."""
 
-    id: Annotated[int, msgspec.Meta(ge=0, lt=2**32)]
+    id: Id
     retina: tuple[
         Annotated[int, msgspec.Meta(ge=1, le=256)], Annotated[int, msgspec.Meta(ge=1, le=256)]
     ] = (96, 96)
+    pan: Angle = 0.0
+    """Degrees by which its eyes are turned to the left."""
+    tilt: Angle = 0.0
+    """Degrees by which they are turned up."""
+    both: bool = False
+    """Whether each eye is shown by itself, the left one at the left."""
 
 
 class Set(Command, tag="set", frozen=True):
@@ -82,6 +91,74 @@ class Set(Command, tag="set", frozen=True):
     owner: Word
     name: Word
     value: float
+
+
+class Resize(Command, tag="resize", frozen=True):
+    """Let a population be this many."""
+
+    population: Word
+    count: Annotated[int, msgspec.Meta(ge=0, le=1_000_000)]
+
+
+class Remove(Command, tag="remove", frozen=True):
+    """Take an individual out of the world."""
+
+    id: Id
+
+
+class Place(Command, tag="place", frozen=True):
+    """Put an individual elsewhere, and size it."""
+
+    id: Id
+    position: tuple[float, float, float]
+    scale: float = 1.0
+
+
+class Trait(Command, tag="trait", frozen=True):
+    """Change a parameter of one individual."""
+
+    id: Id
+    name: Word
+    value: float
+
+
+class Steering(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
+    """Motor commands in place of a mind's; see `Population.steer`."""
+
+    turn: float = 0.0
+    pitch: float = 0.0
+    speed: float = 0.0
+    brake: float = 0.0
+    mouth: float = 0.0
+
+
+class Steer(Command, tag="steer", frozen=True):
+    """Take the place of an animal's mind; null gives it back."""
+
+    id: Id
+    steering: Steering | None
+
+
+class Add(Command, tag="add", frozen=True):
+    """Let a new population live in the world."""
+
+    addition: Addition
+
+
+class Display(Command, tag="display", frozen=True):
+    """Show every so many ticks; null for as many pictures as can be."""
+
+    ticks: Annotated[int, msgspec.Meta(ge=1, le=10_000)] | None
+
+
+class AskScript(Command, tag="script", frozen=True):
+    """Ask for the script of the world: how it was made and what was done to it."""
+
+
+class PlayScript(Command, tag="play script", frozen=True):
+    """Make the world of a script."""
+
+    text: Annotated[str, msgspec.Meta(max_length=LARGEST_MESSAGE)]
 
 
 class Annotations(Command, tag="annotations", frozen=True):
@@ -111,6 +188,15 @@ AnyCommand = (
     | Restart
     | Select
     | Set
+    | Resize
+    | Remove
+    | Place
+    | Trait
+    | Steer
+    | Add
+    | Display
+    | AskScript
+    | PlayScript
     | Annotations
     | Snapshot
     | Seen

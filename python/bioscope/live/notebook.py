@@ -70,7 +70,7 @@ class Watch:
     def __init__(self, world: World, view: Any) -> None:
         self._view = view
         self._feed = Feed()
-        self._selected, self._retina = 0, (96, 96)
+        self._selected = messages.Select(0)
         self._joined = False
         self._lock = threading.Lock()
         self.session = Session(world, world.seed, self._from_session)
@@ -108,8 +108,8 @@ class Watch:
                 self._send(*session.greeting(), *self._feed.due(session.snapshot))
             case messages.Seen():
                 self._feed.seen()
-            case messages.Select(id=chosen, retina=retina):
-                self._selected, self._retina = chosen, retina
+            case messages.Select():
+                self._selected = command
             case messages.Annotations(on=on):
                 self._feed.annotations = on
                 self.session.annotations = int(on)
@@ -119,6 +119,6 @@ class Watch:
     def _inspect(self) -> None:
         while not self.session.closed:
             time.sleep(1 / INSPECTIONS_PER_SECOND)
-            if self._selected:
+            if self._selected.id:
                 with contextlib.suppress(BioscopeError):
-                    self._send(inspection(self.session.world, self._selected, self._retina))
+                    self._send(inspection(self.session.world, self._selected))

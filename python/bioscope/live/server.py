@@ -45,8 +45,9 @@ class Client:
         self.wake = asyncio.Event()
         self.messages: asyncio.Queue[bytes] = asyncio.Queue(_MESSAGES_QUEUED)
         self.feed = Feed()
-        self.selected = 0
-        self.retina = (96, 96)
+        self.selected = messages.Select(0)
+        self.steered = 0
+        """Whom the page steers; 0 for nobody."""
 
     def tell(self, message: bytes) -> None:
         """Queue a message; drop the oldest if the page does not keep up."""
@@ -125,6 +126,9 @@ class Live:
         finally:
             self.clients.discard(client)
             self._count_annotations()
+            if client.steered:
+                # Nobody is left to steer it.
+                self.session.command(messages.Steer(client.steered, None), lambda _: None)
             with contextlib.suppress(Exception):
                 await websocket.close()
 
@@ -176,8 +180,11 @@ class Live:
                 case messages.Seen():
                     client.feed.seen()
                     client.wake.set()
-                case messages.Select(id=chosen, retina=retina):
-                    client.selected, client.retina = chosen, retina
+                case messages.Select():
+                    client.selected = command
+                case messages.Steer(id=steered, steering=steering):
+                    client.steered = 0 if steering is None else steered
+                    self.session.command(command, answer)
                 case messages.Annotations(on=on):
                     client.feed.annotations = on
                     self._count_annotations()
@@ -200,12 +207,11 @@ class Live:
         loop = asyncio.get_running_loop()
         while True:
             await asyncio.sleep(1 / INSPECTIONS_PER_SECOND)
-            if not client.selected:
+            if not client.selected.id:
                 continue
-            chosen, size = client.selected, client.retina
             world = self.session.world
             with contextlib.suppress(BioscopeError):
-                client.tell(await loop.run_in_executor(None, inspection, world, chosen, size))
+                client.tell(await loop.run_in_executor(None, inspection, world, client.selected))
 
 
 def serve(

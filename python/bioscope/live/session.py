@@ -11,17 +11,22 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import msgspec
+
 from bioscope import _engine, worlds
 from bioscope.errors import BioscopeError
 from bioscope.live import messages
 from bioscope.live.messages import encode
+from bioscope.live.populations import catalog, check_addition, check_count, residents
 from bioscope.live.timeline import Timeline
+from bioscope.world.changes import Order, Script, Setting, read_script
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from bioscope.live.messages import AnyCommand
     from bioscope.world import World
+    from bioscope.world.changes import AnyChange
 
 FRAMES_PER_SECOND = 30.0
 _STATISTICS_EVERY = 0.5
@@ -72,6 +77,8 @@ class Session:
         self.running = True
         self.speed: float | None = 1.0
         self.rate = 0.0
+        self.stride: int | None = None
+        """Ticks from one picture to the next; none for as many pictures as can be."""
         self.annotations = 0
         """How many pages want annotations."""
         self.events: deque[dict[str, Any]] = deque(maxlen=_EVENTS_KEPT)
@@ -114,7 +121,8 @@ class Session:
 
     def greeting(self) -> list[bytes]:
         """Return the first messages to a page."""
-        return [self.hello(), self.parameters(), self.past_events(), self.timeline_message()]
+        first = [self.hello(), self.parameters(), self.past_events(), self.timeline_message()]
+        return [*first, self.populations()]
 
     def hello(self) -> bytes:
         """Return the first message to a page."""
@@ -128,7 +136,12 @@ class Session:
             cameras=self.world.cameras.describe(),
             shots=self.world.shots,
             page=["restart"] if self._load else [],
+            catalog=catalog(),
         )
+
+    def populations(self) -> bytes:
+        """Return the message that says who lives in the world."""
+        return encode("populations", stride=self.stride, populations=residents(self.world))
 
     def parameters(self) -> bytes:
         """Return the message that describes all parameters."""
@@ -161,7 +174,7 @@ class Session:
             if self.running:
                 self._advance(now)
                 now = time.perf_counter()
-            if changed or (self.running and now >= next_frame):
+            if changed or (self.running and now >= next_frame and self._shows()):
                 self._frame()
                 next_frame = max(next_frame + 1 / FRAMES_PER_SECOND, now)
             if now >= next_statistics:
@@ -198,11 +211,17 @@ class Session:
             while self._due >= 1 and time.perf_counter() - now < _SLICE:
                 self.timeline.step()
                 self._due -= 1
+                if self.stride is not None and self._shows():
+                    break
         except Exception as error:
             self._fail(error)
         if self.speed is None:
             self._due = 0.0
         self._tell_events()
+
+    def _shows(self) -> bool:
+        """Whether the present tick is one of those to be shown."""
+        return self.stride is None or self.world.tick >= self.snapshot.tick + self.stride
 
     def _fail(self, error: Exception) -> None:
         """Stop at the last complete tick and say why."""
@@ -285,14 +304,65 @@ class Session:
                 self.speed = factor
                 self._due = 0.0
             case messages.Set(owner=owner, name=name, value=value):
-                self.timeline.change(owner, name, value)
-                self._newest_event = min(self._newest_event, self.world.tick)
+                self._change(Setting(owner, name, value))
                 self._publish(self.parameters())
+            case messages.Add(addition=addition):
+                check_addition(addition.kind, addition.count)
+                self._change(addition)
+                self._publish(self.parameters())
+                self._publish(self.populations())
+            case messages.Display(ticks=ticks):
+                self.stride = ticks
+                self._publish(self.populations())
+            case messages.AskScript():
+                name = f"{self.world.title}-{self.world.tick}.json"
+                answer(encode("script", name=name, text=self.script().text()))
+            case messages.PlayScript(text=text):
+                self._play(read_script(text))
             case messages.Restart():
                 self._restart(command)
             case messages.Snapshot():
                 name = f"{self.world.title}-{self.world.tick}.world"
                 answer(encode("snapshot", name=name, bytes=self.world._engine.save()))
+            case _:
+                self._change(self._order(command))
+
+    def _order(self, command: AnyCommand) -> Order:
+        """Return what a command tells which population."""
+        match command:
+            case messages.Resize(population=population, count=count):
+                check_count(self.world, population, count)
+                return Order(population, {"number": count})
+            case messages.Remove(id=one):
+                return Order(self._home(one), {"remove": one})
+            case messages.Place(id=one, position=position, scale=scale):
+                place = {"id": one, "position": position, "scale": scale}
+                return Order(self._home(one), {"place": place})
+            case messages.Trait(id=one, name=name, value=value):
+                return Order(self._home(one), {"trait": {"id": one, "name": name, "value": value}})
+            case messages.Steer(id=one, steering=steering):
+                wanted = None if steering is None else msgspec.to_builtins(steering)
+                return Order(self._home(one), {"steer": {"id": one, "steering": wanted}})
+            case _:
+                raise BioscopeError(f"{type(command).__name__} is no order")
+
+    def _home(self, individual: int) -> str:
+        """Return the population in which an individual lives."""
+        found = self.world.inspect(individual)
+        if found is None:
+            raise BioscopeError(
+                f"{individual} is nobody that can be changed: it is no more, or stays"
+            )
+        return str(found["population"])
+
+    def _change(self, change: AnyChange) -> None:
+        self.timeline.change(change)
+        self._newest_event = min(self._newest_event, self.world.tick)
+
+    def script(self) -> Script:
+        """Return how this world was made and what was done to it."""
+        made = (self.name, self.world.seed, self.world.tick)
+        return Script(*made, self.timeline.changes)
 
     def _set_running(self, *, running: bool) -> None:
         if running and not self.running:
@@ -313,12 +383,38 @@ class Session:
         else:
             raise BioscopeError("this world was made by a program: run it again for another seed")
         self._begin()
-        for owner, name, value in command.set:
-            self.timeline.change(owner, name, value)
-        while self.world.tick < command.tick and not self._closed:
+        for setting in command.set:
+            self.timeline.change(Setting(*setting))
+        self._run_to(command.tick)
+        self._tell_all()
+
+    def _play(self, script: Script) -> None:
+        """Make the world of a script, in place of the present one."""
+        if not self._load or script.world != self.name:
+            made = f"is of the world '{script.world}', this is '{self.name}'"
+            raise BioscopeError(f"the script {made}: open it with `bioscope live SCRIPT`")
+        if script.tick > 100_000:
+            raise BioscopeError(f"the script goes to tick {script.tick}: expected at most 100,000")
+        self.world = worlds.load(self.name, script.seed)
+        self._begin()
+        for step in sorted(script.steps, key=lambda one: one.tick):
+            if step.tick > script.tick:
+                break
+            self._run_to(step.tick)
+            self.timeline.change(step.change)
+        self._run_to(script.tick)
+        self._set_running(running=False)
+        self._tell_all()
+
+    def _run_to(self, tick: int) -> None:
+        while self.world.tick < tick and not self._closed:
             self.timeline.step()
+
+    def _tell_all(self) -> None:
+        """Tell pages everything about a world that is new to them."""
         self._clock, self._due = time.perf_counter(), 0.0
         self._publish(self.hello())
         self._publish(self.parameters())
         self._publish(self.timeline_message())
+        self._publish(self.populations())
         self._frame()

@@ -3,19 +3,16 @@
 from __future__ import annotations
 
 import bisect
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
+
+from bioscope.errors import BioscopeError, FormatError
+from bioscope.world.changes import Step, brief, perform
 
 if TYPE_CHECKING:
     from bioscope.world import World
+    from bioscope.world.changes import AnyChange
 
-
-class Change(NamedTuple):
-    """A parameter set from outside after a tick."""
-
-    tick: int
-    owner: str
-    name: str
-    value: float
+_MOST_CHANGES = 100_000
 
 
 class Timeline:
@@ -31,7 +28,7 @@ class Timeline:
         self._most_bytes = most_bytes
         self._ticks: list[int] = []
         self._states: list[bytes] = []
-        self._changes: list[Change] = []
+        self._changes: list[Step] = []
         self.last = world.tick
         """Greatest tick reached since the last change of the past."""
         self._keep()
@@ -45,18 +42,24 @@ class Timeline:
         """Make one tick, with the changes that were once made after it."""
         self._world.step()
         tick = self._world.tick
-        self._apply_changes(tick)
-        self.last = max(self.last, tick)
+        # A checkpoint is of the state before the changes of its tick.
         if tick % self._interval == 0 and tick > self._ticks[-1]:
             self._keep()
+        self._apply_changes(tick)
+        self.last = max(self.last, tick)
 
-    def change(self, owner: str, name: str, value: float) -> None:
-        """Set a parameter now; what was the future before is forgotten."""
-        self._world.set(owner, name, value)
+    def change(self, change: AnyChange) -> None:
+        """Make a change now; what was the future before is forgotten.
+
+        One that is refused changes nothing, and the future stays.
+        """
+        if len(self._changes) >= _MOST_CHANGES:
+            raise BioscopeError(f"{_MOST_CHANGES} changes are remembered: restart the world")
+        perform(self._world, change)
         now = self._world.tick
         self._changes = [one for one in self._changes if one.tick <= now]
-        self._changes.append(Change(now, owner, name, value))
-        kept = bisect.bisect_left(self._ticks, now, lo=1)
+        self._changes.append(Step(now, change))
+        kept = bisect.bisect_right(self._ticks, now)
         del self._ticks[kept:], self._states[kept:]
         self.last = now
 
@@ -66,20 +69,31 @@ class Timeline:
         now = self._world.tick
         index = bisect.bisect_right(self._ticks, tick) - 1
         if tick < now or self._ticks[index] > now:
-            self._world._engine.return_to(self._states[index])
-            self._apply_changes(self._ticks[index])
+            self._return_to(index)
         while self._world.tick < tick:
             self.step()
 
     @property
-    def changes(self) -> list[Change]:
-        """All changes up to now."""
-        return [one for one in self._changes if one.tick <= self._world.tick]
+    def changes(self) -> list[Step]:
+        """All changes up to now that matter."""
+        return brief([one for one in self._changes if one.tick <= self._world.tick])
+
+    def _return_to(self, index: int) -> None:
+        """Go to a checkpoint; to an earlier one if it has populations that are not here yet."""
+        while True:
+            try:
+                self._world._engine.return_to(self._states[index])
+                break
+            except FormatError:
+                if index == 0:
+                    raise
+                index -= 1
+        self._apply_changes(self._ticks[index])
 
     def _apply_changes(self, tick: int) -> None:
         for one in self._changes:
             if one.tick == tick:
-                self._world.set(one.owner, one.name, one.value)
+                perform(self._world, one.change)
 
     def _keep(self) -> None:
         self._ticks.append(self._world.tick)

@@ -5,7 +5,7 @@ from bioscope.populations.fish import FishSchool, RoamingFish
 from bioscope.populations.fishing import FishingLine
 from bioscope.populations.place import Disk, Habitat, Rectangle
 from bioscope.populations.plants import Plants
-from bioscope.populations.scenery import Corals, Ground, Props, Rocks
+from bioscope.populations.scenery import Corals, Ground, Pillars, Props, Rocks
 
 __all__ = [
     "Bubbles",
@@ -15,6 +15,7 @@ __all__ = [
     "FishingLine",
     "Ground",
     "Habitat",
+    "Pillars",
     "Plankton",
     "Plants",
     "Props",

@@ -223,6 +223,11 @@ def models() -> dict[str, Path]:
     return of_worlds | gallery.files()
 
 
+def marine() -> list[Path]:
+    """Return the files of the plants that live in water."""
+    return sorted(_WORLDS.glob("*/plants/*.l"))
+
+
 def model_path(model: str) -> Path:
     """Return the file of a model.
 

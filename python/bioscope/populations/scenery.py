@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -11,7 +12,7 @@ from bioscope.populations.native import Asked
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from numpy.typing import ArrayLike
+    from numpy.typing import ArrayLike, NDArray
 
     from bioscope.populations.place import Habitat
 
@@ -114,6 +115,66 @@ class Corals(Asked):
             "size": size,
         }
         super().__init__("corals", options, parameters)
+
+
+class Pillars(Asked):
+    """Round pillars: animals steer round them and see nothing behind them.
+
+    Parameters
+    ----------
+    places
+        Middle of the foot of each, metres.
+    radius, height
+        Metres.
+    color
+        Linear colour.
+    """
+
+    def __init__(
+        self,
+        places: Sequence[tuple[float, float, float]],
+        *,
+        radius: float = 0.35,
+        height: float = 3.0,
+        color: Color = (0.34, 0.33, 0.29),
+    ) -> None:
+        upright = (0.0, 0.0, 0.0, 1.0)
+        positions, triangles = _pillar(radius, height)
+        options = {
+            "species": "pillar",
+            "positions": positions.tolist(),
+            "triangles": triangles.tolist(),
+            "color": color,
+            "roughness": 0.9,
+            "alive": True,
+            "places": [{"position": at, "scale": 1.0, "rotation": upright} for at in places],
+            "obstacles": [
+                {"Cylinder": {"base": at, "top": (at[0], at[1] + height, at[2]), "radius": radius}}
+                for at in places
+            ],
+        }
+        super().__init__("props", options, {})
+
+
+def _pillar(radius: float, height: float) -> tuple[NDArray[Any], NDArray[Any]]:
+    """Return a round pillar on its foot, closed at both ends."""
+    sides = 24
+    angles = np.arange(sides) * (math.tau / sides)
+    ring = np.stack([radius * np.sin(angles), 0 * angles, radius * np.cos(angles)], axis=1)
+    lid = ring + np.array([0.0, height, 0.0])
+    # The ends have vertices of their own, so that their edges are sharp.
+    ends = [[0.0, 0.0, 0.0], [0.0, height, 0.0]]
+    positions = np.concatenate([ring, lid, ring, lid, ends])
+    here = np.arange(sides)
+    after = (here + 1) % sides
+    foot, top = 4 * sides, 4 * sides + 1
+    wall = [[here, after, here + sides], [after, after + sides, here + sides]]
+    caps = [
+        [after + 2 * sides, here + 2 * sides, np.full(sides, foot)],
+        [here + 3 * sides, after + 3 * sides, np.full(sides, top)],
+    ]
+    triangles = np.concatenate([np.stack(one, axis=1) for one in [*wall, *caps]])
+    return positions, triangles
 
 
 class Props(Asked):

@@ -117,23 +117,22 @@ def eyes(
     camera = None if inspection is None else inspection["eye"]
     if inspection is None or camera is None:
         raise UnknownNameError(f"no animal with eyes has the id {animal}")
+    half = 0.5 * apart * inspection["values"]["body_length_m"]
+    return turned(camera, pan, tilt, half), turned(camera, pan, tilt, -half)
+
+
+def turned(camera: Camera, pan: float, tilt: float, aside: float = 0.0) -> Camera:
+    """Return a camera turned to the left and up (degrees), and moved aside to its left (metres)."""
     rotation = np.array(camera.rotation)
     left = _rotated(rotation, np.array([-1.0, 0.0, 0.0]))
-    offset = 0.5 * apart * inspection["values"]["body_length_m"] * left
-    turned = _product(rotation, _product(_about(1, pan), _about(0, tilt)))
-    place = np.array(camera.position)
-    both = [
-        _engine.Camera(
-            tuple(place + side * offset),
-            tuple(turned),
-            camera.field_of_view,
-            camera.fisheye,
-            camera.near,
-            camera.far,
-        )
-        for side in (1.0, -1.0)
-    ]
-    return both[0], both[1]
+    return _engine.Camera(
+        tuple(np.array(camera.position) + aside * left),
+        tuple(_product(rotation, _product(_about(1, pan), _about(0, tilt)))),
+        camera.field_of_view,
+        camera.fisheye,
+        camera.near,
+        camera.far,
+    )
 
 
 def _about(axis: int, degrees: float) -> NDArray[np.float64]:

@@ -59,6 +59,66 @@ class Resident:
         for name, value in values.items():
             self.world.set(self.name, name, value)
 
+    def resize(self, count: int) -> None:
+        """Be this many, between two ticks: the youngest go, or others like the first come.
+
+        Raises
+        ------
+        InvalidValueError
+            For a number that is too large, and populations that cannot change theirs.
+        """
+        self.world.order(self.name, {"number": count})
+
+    def remove(self, individual: int) -> None:
+        """Take one individual out of the world, by its id."""
+        self.world.order(self.name, {"remove": individual})
+
+    def place(
+        self, individual: int, position: tuple[float, float, float], *, scale: float = 1.0
+    ) -> None:
+        """Put one individual elsewhere (metres), and size it by `scale` if it can be sized."""
+        order = {"id": individual, "position": [*position], "scale": scale}
+        self.world.order(self.name, {"place": order})
+
+    def set_one(self, individual: int, **values: float) -> None:
+        """Set parameters of one individual alone: its temper, its habits, its body."""
+        for name, value in values.items():
+            order = {"id": individual, "name": name, "value": value}
+            self.world.order(self.name, {"trait": order})
+
+    def steer(
+        self,
+        individual: int,
+        *,
+        turn: float = 0.0,
+        pitch: float = 0.0,
+        speed: float = 1.0,
+        brake: float = 0.0,
+        mouth: float = 0.0,
+    ) -> None:
+        """Let an animal do this instead of what its mind wants, until `release`.
+
+        Its mind goes on feeling hunger, libido and fear. With an open mouth it bites the food
+        nearest to it.
+
+        Parameters
+        ----------
+        individual
+            Its id.
+        turn, pitch
+            Angles in radians to turn by (positive to the left) and to climb at.
+        speed
+            Body lengths per second; negative to back away.
+        brake, mouth
+            How hard to brake and how far to open the mouth, 0 to 1.
+        """
+        steering = {"turn": turn, "pitch": pitch, "speed": speed, "brake": brake, "mouth": mouth}
+        self.world.order(self.name, {"steer": {"id": individual, "steering": steering}})
+
+    def release(self, individual: int) -> None:
+        """Give a steered animal back to its mind."""
+        self.world.order(self.name, {"steer": {"id": individual, "steering": None}})
+
     @property
     def statistics(self) -> dict[str, float]:
         """Present figures by name, `count` among them."""

@@ -6,6 +6,8 @@ import secrets
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
+import msgspec
+
 from bioscope import _engine, minds
 from bioscope.files import naming, written_whole
 from bioscope.world import field as fields
@@ -168,7 +170,7 @@ class World:
         return [Parameter(*row) for row in self._engine.parameters()]
 
     def set(self, owner: str, name: str, value: float) -> None:
-        """Set a parameter of a population, a field or `environment` between two ticks.
+        """Set a parameter of a population, a field, `environment` or `world` between two ticks.
 
         Raises
         ------
@@ -177,10 +179,24 @@ class World:
         """
         self._engine.set(owner, name, value)
 
+    def order(self, population: str, order: dict[str, Any]) -> None:
+        """Tell a population something between two ticks; it is part of a recording.
+
+        Populations of the engine offer the orders as methods: `resize`, `remove`, `place`,
+        `set_one`, `steer`, `release`.
+
+        Raises
+        ------
+        UnknownNameError, InvalidValueError, FormatError
+            For an unknown population, or an order that it cannot obey; nothing is changed then.
+        """
+        self._engine.order(population, msgspec.json.encode(order).decode())
+
     def inspect(self, individual: int) -> dict[str, Any] | None:
         """Return what can be known of one individual; none if there is no such one.
 
-        `population`, `species`, `behavior`, `values`, `percepts` and `eye` (a camera, or none).
+        `population`, `species`, `behavior`, `values`, `traits` (its own values of the population's
+        parameters), `percepts` and `eye` (a camera, or none).
         """
         return self._engine.inspect(individual)
 

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 from bioscope.errors import BioscopeError, FormatError, UnknownNameError
 from bioscope.world import World
+from bioscope.world.changes import read_script
 from bioscope.worlds import landscape as landscape  # its populations are known to saved worlds
 
 if TYPE_CHECKING:
@@ -51,7 +52,7 @@ def load(name: str, seed: int | None = None) -> World:
     ----------
     name
         A ready-made world (see `names`), or the path of a Python file that defines
-        `world(seed: int) -> bioscope.World`, or of a saved world.
+        `world(seed: int) -> bioscope.World`, or of a saved world or its script (`.json`).
     seed
         Its seed; one is drawn if not given.
 
@@ -72,12 +73,24 @@ def load(name: str, seed: int | None = None) -> World:
     path = Path(name)
     if path.suffix == ".world" and path.is_file():
         return World.restore(path)
+    if path.suffix == ".json" and path.is_file():
+        return _played(path)
     if path.is_file():
         return _made(_script(path), name, seed)
     if path.suffix or len(path.parts) > 1:
         raise UnknownNameError(f"{name}: no such file")
     known = ", ".join(names())
     raise UnknownNameError(f"unknown world '{name}'; known: {known}, or the path of a Python file")
+
+
+def _played(path: Path) -> World:
+    """Return the world of a script, as it was when the script was saved."""
+    script = read_script(path.read_bytes(), str(path))
+    if Path(script.world).suffix == ".json":
+        raise FormatError(f"{path}: a script of the script {script.world}: expected a world's")
+    made = load(script.world, script.seed)
+    script.play(made)
+    return made
 
 
 def _script(path: Path) -> ModuleType:

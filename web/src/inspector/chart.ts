@@ -55,6 +55,18 @@ export class Chart {
     this.stale = true;
   }
 
+  /** Forgets everything. */
+  clear(): void {
+    this.ring.clear();
+    this.stale = true;
+  }
+
+  /** The values added last, their time first; null without any. */
+  get latest(): number[] | null {
+    const last = Array.from({ length: this.ring.columns }, (_, column) => this.ring.last(column));
+    return Number.isFinite(last[0]) ? last : null;
+  }
+
   /** Draws what is new, if it can be seen. */
   refresh(): void {
     if (!this.stale || !this.element.offsetParent) return;

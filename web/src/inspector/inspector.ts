@@ -35,8 +35,9 @@ export class Inspector {
     session: Session,
     private readonly store: ParameterStore,
     private readonly select: (id: number) => void,
+    species: (id: number) => string,
   ) {
-    this.retina = new RetinaView(select);
+    this.retina = new RetinaView(select, species);
     this.pane = new ParameterPane(store, () => this.owners());
     const close = element(
       "button",

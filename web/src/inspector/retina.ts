@@ -4,7 +4,10 @@ import { element } from "../overlays/dom";
 type Look = "color" | "depth" | "identity";
 
 /** How each look paints a pixel into four bytes. */
-const PAINTERS: Record<Look, (retina: Retina, index: number, target: Uint8ClampedArray) => void> = {
+const PAINTERS: Record<
+  Look,
+  (retina: Retina, index: number, target: Uint8ClampedArray, colors: IdentityColors) => void
+> = {
   color: ({ color }, index, target) => {
     for (let k = 0; k < 3; k++) target[4 * index + k] = color[4 * index + k];
   },
@@ -15,16 +18,36 @@ const PAINTERS: Record<Look, (retina: Retina, index: number, target: Uint8Clampe
     target[4 * index + 1] = 30 + 200 * near * near ** 0.2;
     target[4 * index + 2] = Number.isFinite(metres) ? 70 + 120 * (1 - near) : 30;
   },
-  identity: ({ identity }, index, target) => {
+  identity: ({ identity }, index, target, colors) => {
     const id = identity[index];
-    if (id === 0) {
-      target.set([8, 14, 20], 4 * index);
-      return;
-    }
-    const mixed = Math.imul(id, 2654435761) >>> 0;
-    target.set([80 + (mixed & 127), 80 + ((mixed >> 9) & 127), 80 + ((mixed >> 18) & 127)], 4 * index);
+    target.set(id === 0 ? [8, 14, 20] : colors.of(id), 4 * index);
   },
 };
+
+/** A color for every individual: one hue per species, shades of it for its members (Tu 1996, section 5.6). */
+class IdentityColors {
+  private readonly hues = new Map<string, number>();
+  private readonly colors = new Map<number, [number, number, number]>();
+
+  constructor(private readonly species: (id: number) => string) {}
+
+  of(id: number): [number, number, number] {
+    const known = this.colors.get(id);
+    if (known) return known;
+    const species = this.species(id);
+    const hue = this.hues.get(species) ?? (this.hues.size * 0.381966) % 1;
+    this.hues.set(species, hue);
+    const bright = 1 - 0.6 * ((id * 0.618034) % 1);
+    const pure = 1 - 0.5 * ((id * 0.75488) % 1);
+    const part = (shift: number) => {
+      const wave = Math.abs(((((hue + shift) % 1) + 1) % 1) * 6 - 3) - 1;
+      return Math.round(255 * bright * (1 - pure + pure * Math.min(1, Math.max(0, wave))));
+    };
+    const color: [number, number, number] = [part(0), part(2 / 3), part(1 / 3)];
+    this.colors.set(id, color);
+    return color;
+  }
+}
 
 /** What the selected animal sees. */
 export class RetinaView {
@@ -34,8 +57,14 @@ export class RetinaView {
   private readonly buttons = new Map<Look, HTMLButtonElement>();
   private look: Look = "color";
   private retina: Retina | null = null;
+  private readonly colors: IdentityColors;
 
-  constructor(private readonly select: (id: number) => void) {
+  /** `select` is called with whom is clicked; `species` names that of an individual. */
+  constructor(
+    private readonly select: (id: number) => void,
+    species: (id: number) => string,
+  ) {
+    this.colors = new IdentityColors(species);
     const tabs = element("div", { class: "bio-tabs" });
     for (const look of Object.keys(PAINTERS) as Look[]) {
       const button = element("button", { textContent: look, onclick: () => this.choose(look) });
@@ -74,14 +103,16 @@ export class RetinaView {
     const image = new ImageData(width, height);
     const painter = PAINTERS[this.look];
     for (let i = 0; i < width * height; i++) {
-      painter(retina, i, image.data);
+      painter(retina, i, image.data, this.colors);
       image.data[4 * i + 3] = 255;
     }
     this.canvas.getContext("2d")!.putImageData(image, 0, 0);
     const nearest = retina.depth.reduce((least, metres) => Math.min(least, metres), Infinity);
     const degrees = Math.round((retina.field_of_view * 180) / Math.PI);
     const distance = Number.isFinite(nearest) ? `, nearest ${nearest.toFixed(2)} m` : "";
-    this.note.textContent = `${width} × ${height}, ${degrees}°${distance}`;
+    const eyes = retina.eyes === 2 ? "left and right eye, " : "";
+    this.canvas.style.aspectRatio = String(width / height);
+    this.note.textContent = `${eyes}${width} × ${height}, ${degrees}°${distance}`;
   }
 
   private pick(event: MouseEvent): void {

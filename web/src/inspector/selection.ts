@@ -6,9 +6,17 @@ import type { Stage } from "../scene/stage";
 /** Size of the retina that is asked for. */
 const RETINA: [number, number] = [128, 128];
 
+/** How the eyes of the selected one are turned (degrees, to the left and up), and whether each is shown. */
+export interface Gaze {
+  pan: number;
+  tilt: number;
+  both: boolean;
+}
+
 /** Which individual is selected. */
 export class Selection {
   id = 0;
+  gaze: Gaze = { pan: 0, tilt: 0, both: false };
   /** Called when another individual is selected. */
   changed: (id: number, species: string) => void = () => {};
   /** Called when the selected individual is no longer in the world. */
@@ -70,7 +78,15 @@ export class Selection {
     return moving.length > 0 ? moving : alive;
   }
 
+  /** Turns the eyes of the selected one, for the picture of what it sees. */
+  look(gaze: Partial<Gaze>): void {
+    this.gaze = { ...this.gaze, ...gaze };
+    this.tell();
+  }
+
   private tell(): void {
-    this.session.send({ do: "select", id: this.id, retina: RETINA });
+    const [width, height] = RETINA;
+    const retina: [number, number] = this.gaze.both ? [2 * width, height] : [width, height];
+    this.session.send({ do: "select", id: this.id, retina, ...this.gaze });
   }
 }

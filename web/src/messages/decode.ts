@@ -47,6 +47,8 @@ const KINDS = new Set([
   "statistics",
   "timeline",
   "inspection",
+  "populations",
+  "script",
   "snapshot",
   "notice",
 ]);

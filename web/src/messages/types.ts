@@ -40,6 +40,15 @@ export interface Hello {
   /** The world's shot list: names of cameras and the seconds that each is held. */
   shots?: [string, number][];
   page: string[];
+  /** What can be added to the world; absent in recordings. */
+  catalog?: Catalog;
+}
+
+/** Species of fish, those among them that hunt, and models of plants. */
+export interface Catalog {
+  fish: string[];
+  hunters: string[];
+  plants: string[];
 }
 
 export interface MeshMessage {
@@ -231,6 +240,8 @@ export interface Timeline {
 export interface Retina {
   width: number;
   height: number;
+  /** Pictures side by side: one, or the left and the right eye's. */
+  eyes: number;
   color: Uint8Array;
   depth: Float32Array;
   identity: Uint32Array;
@@ -239,13 +250,44 @@ export interface Retina {
 
 export interface Inspection {
   type: "inspection";
+  tick: number;
+  time: number;
   id: number;
   species: string;
   population: string;
   behavior: string | null;
   values: Record<string, Value>;
+  /** Its own values of its population's parameters. */
+  traits: Record<string, number>;
   percepts: Record<string, unknown>;
   retina: Retina | null;
+}
+
+/** What a population can be told. */
+export type OrderName = "number" | "remove" | "place" | "trait" | "steer";
+
+export interface Resident {
+  name: string;
+  kind: string;
+  /** Species in the scene; empty where it is not known. */
+  species: string;
+  count: number;
+  /** Most individuals that may be asked for. */
+  most: number;
+  orders: OrderName[];
+}
+
+export interface PopulationsMessage {
+  type: "populations";
+  /** Ticks from one picture to the next; null for as many pictures as can be. */
+  stride: number | null;
+  populations: Resident[];
+}
+
+export interface ScriptMessage {
+  type: "script";
+  name: string;
+  text: string;
 }
 
 export interface Snapshot {
@@ -272,5 +314,7 @@ export type Message =
   | Statistics
   | Timeline
   | Inspection
+  | PopulationsMessage
+  | ScriptMessage
   | Snapshot
   | Notice;

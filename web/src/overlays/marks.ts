@@ -6,6 +6,8 @@ import { element } from "./dom";
 /** What is written over the picture: where the selected animal is, and what animals sense and decide. */
 export class Marks {
   readonly element = element("canvas", { class: "bio-marks-canvas" });
+  /** Whether every animal has its number. */
+  labels = false;
   private readonly point = new Vector3();
   private width = 1;
   private height = 1;
@@ -39,6 +41,17 @@ export class Marks {
     this.dirty = selected !== null || (annotations?.length ?? 0) > 0;
     for (const annotation of annotations ?? []) this.drawAnnotation(context, camera, annotation);
     if (selected) this.drawRing(context, camera, selected);
+  }
+
+  /** Writes numbers at places. */
+  drawLabels(camera: PerspectiveCamera, labels: readonly Label[]): void {
+    const context = this.element.getContext("2d");
+    if (!context) return;
+    for (const { id, species, place } of labels) {
+      const at = this.project(camera, ...place);
+      if (at) this.write(context, String(id), at[0] + 3, at[1] - 3, colorOf(species));
+    }
+    this.dirty = true;
   }
 
   private drawRing(context: CanvasRenderingContext2D, camera: PerspectiveCamera, ring: Ring): void {
@@ -108,6 +121,13 @@ export class Marks {
     context.fillStyle = color;
     context.fillText(text, x, y);
   }
+}
+
+/** An individual and where it is, metres. */
+export interface Label {
+  id: number;
+  species: string;
+  place: [number, number, number];
 }
 
 /** The ring round the selected individual. */

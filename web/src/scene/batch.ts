@@ -152,6 +152,11 @@ export class Batch {
     this.shadow.finish();
   }
 
+  /** Draws the edges of triangles instead of surfaces. */
+  drawEdges(on: boolean): void {
+    for (const level of this.levels) level.mesh.material.wireframe = on;
+  }
+
   dispose(): void {
     for (const level of [...this.levels, this.shadow]) level.dispose();
     for (const moment of [this.older, this.newer]) moment.poses.dispose();

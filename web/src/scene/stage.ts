@@ -1,5 +1,6 @@
 import { Frustum, Matrix4, type PerspectiveCamera, Scene, Vector3, type WebGLRenderer } from "three";
 import type { Frame, Layout, Message } from "../messages/types";
+import type { Label } from "../overlays/marks";
 import type { Moment } from "../playout/queue";
 import { Assets } from "./assets";
 import { Background } from "./background";
@@ -48,6 +49,7 @@ export class Stage {
   private outdated = false;
   private before: { time: number } | null = null;
   private current: Frame | null = null;
+  private edges = false;
 
   constructor(readonly renderer: WebGLRenderer) {
     const software = isSoftware(renderer);
@@ -58,6 +60,16 @@ export class Stage {
     this.shared.uCausticTile.value = this.caustics.texture;
     this.picture = createPicture(1, 1, this.quality);
     this.shadows.resize(renderer, this.quality.shadowMap);
+  }
+
+  /** Whether only the edges of triangles are drawn. */
+  get wireframe(): boolean {
+    return this.edges;
+  }
+
+  set wireframe(on: boolean) {
+    this.edges = on;
+    for (const batch of this.batches.values()) batch.drawEdges(on);
   }
 
   /** What is shown is of another connection: the next layout replaces all of it, whatever its keys. */
@@ -94,6 +106,19 @@ export class Stage {
     this.current = frame;
     for (const [name, batch] of this.batches) batch.advance(frame.moving[name], cut);
     for (const [name, points] of this.points) points.advance(frame.drifting[name], cut);
+  }
+
+  /** All that lives and moves about, with its place. */
+  labels(): Label[] {
+    const moving = [...this.batches.values()].filter(
+      ({ layout }) => layout.alive && this.current?.moving[layout.name]?.positions,
+    );
+    return moving.flatMap((batch) =>
+      [...batch.layout.ids].map((id, slot) => {
+        const [x, y, z] = batch.placeOf(slot);
+        return { id, species: batch.layout.species, place: [x, y, z] as [number, number, number] };
+      }),
+    );
   }
 
   /** The picture has this size in pixels of the screen. */
@@ -210,6 +235,7 @@ export class Stage {
       const batch = new Batch(this.batchNumber, one, asset, this.assets, this.shared);
       if (former && !this.outdated) batch.carry(former);
       for (const level of batch.levels) this.scene.add(level.mesh);
+      batch.drawEdges(this.edges);
       this.shadows.scene.add(batch.shadow.mesh);
       if (former) this.removeBatch(one.name);
       this.batches.set(one.name, batch);

@@ -1,4 +1,4 @@
-use bioscope_core::{Parameters, Result, Vec3, math, parameters, state};
+use bioscope_core::{Error, Parameter, Parameters, Result, Vec3, math, parameters, state};
 use serde::{Deserialize, Serialize};
 
 use crate::{Field, Influence};
@@ -16,6 +16,8 @@ parameters! {
         turbulence: f32 = 0.06, "m/s", 0.0..=3.0, "choice";
         /// Size of the eddies.
         eddy_size: f32 = 2.5, "m", 0.1..=100.0, "choice";
+        /// Factor on all of it: 0 is off.
+        strength: f32 = 1.0, "1", 0.0..=4.0, "choice";
     }
 }
 
@@ -35,12 +37,26 @@ impl Current {
 
     /// Velocity of the water at a point (metres) and time (seconds), metres per second.
     pub fn flow(&self, point: Vec3, time: f64) -> Vec3 {
-        let CurrentParameters { speed, surge, surge_period, turbulence, eddy_size } =
+        let CurrentParameters { speed, surge, surge_period, turbulence, eddy_size, strength } =
             self.parameters;
         let phase = (time / f64::from(surge_period)).fract() as f32 * math::TAU;
         let travel = point.dot(self.direction) * 0.35;
         let swell = surge * math::sin(phase - travel.min(1e4));
-        self.direction * (speed + swell) + eddies(point / eddy_size, time) * turbulence
+        let flow = self.direction * (speed + swell) + eddies(point / eddy_size, time) * turbulence;
+        flow * strength
+    }
+
+    /// Direction of the flow on the level, from +Z (0) towards +X (90).
+    fn bearing() -> Parameter {
+        Parameter {
+            name: String::from("bearing"),
+            unit: String::from("deg"),
+            minimum: -180.0,
+            maximum: 180.0,
+            default: 90.0,
+            meaning: String::from("Direction in which it flows, from +Z (0) towards +X (90)."),
+            source: String::from("choice"),
+        }
     }
 }
 
@@ -59,6 +75,40 @@ fn eddies(point: Vec3, time: f64) -> Vec3 {
     })
 }
 
+/// How strong it is, and where it flows.
+impl Parameters for Current {
+    fn descriptions(&self) -> Vec<Parameter> {
+        let mut all = self.parameters.descriptions();
+        all.push(Self::bearing());
+        all
+    }
+
+    fn get(&self, name: &str) -> Option<f64> {
+        if name == "bearing" {
+            let bearing = math::atan2(self.direction.x, self.direction.z);
+            return Some(f64::from(bearing.to_degrees()));
+        }
+        self.parameters.get(name)
+    }
+
+    fn set(&mut self, name: &str, value: f64) -> Result<()> {
+        if name == "bearing" {
+            let bearing = (Self::bearing().check(value)? as f32).to_radians();
+            let level = self.direction.with_y(0.0).length();
+            // A current straight up or down lies down.
+            let level = if level > 1e-3 { level } else { 1.0 };
+            let aside = Vec3::new(math::sin(bearing), 0.0, math::cos(bearing)) * level;
+            self.direction = aside.with_y(self.direction.y).normalize();
+            return Ok(());
+        }
+        if self.parameters.get(name).is_none() {
+            let known = self.descriptions().into_iter().map(|one| one.name).collect();
+            return Err(Error::Unknown { kind: "parameter", name: name.to_owned(), known });
+        }
+        self.parameters.set(name, value)
+    }
+}
+
 impl Field for Current {
     fn kind(&self) -> &str {
         "current"
@@ -72,11 +122,11 @@ impl Field for Current {
     }
 
     fn parameters(&self) -> Option<&dyn Parameters> {
-        Some(&self.parameters)
+        Some(self)
     }
 
     fn parameters_mut(&mut self) -> Option<&mut dyn Parameters> {
-        Some(&mut self.parameters)
+        Some(self)
     }
 
     fn boxed_clone(&self) -> Box<dyn Field> {

@@ -4,8 +4,8 @@ use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 use bioscope_core::{
-    Act, Annotation, Display, Id, Intention, Mark, NOTHING, Parameters, Percepts, Random, Result,
-    Value, Vec3,
+    Act, Annotation, Display, Id, Intention, Mark, NOTHING, Parameter, Parameters, Percepts,
+    Random, Result, Value, Vec3,
 };
 use serde::{Deserialize, Serialize};
 
@@ -13,7 +13,7 @@ use crate::attention::{
     Behavior, Focus, Preferences, Region, Situation, Strengths, Threat, preferences,
 };
 use crate::drives::Drives;
-use crate::nature::{Nature, Temper};
+use crate::nature::{Habits, Nature, Temper};
 use crate::routines::{Avoidance, Command, Courtship, Escape, Wandering, choose_food, eat, school};
 
 /// Nature, temper, drives and skills of a fish.
@@ -28,6 +28,26 @@ pub(crate) struct Character {
     escape: Escape,
     /// Whether it swims in formation, so that its sensitivity region shrinks.
     formation: bool,
+}
+
+/// Its temper, and its habits as switches (from 0.5 on).
+impl Parameters for Character {
+    fn descriptions(&self) -> Vec<Parameter> {
+        let mut all = self.temper.descriptions();
+        all.extend(Habits::descriptions());
+        all
+    }
+
+    fn get(&self, name: &str) -> Option<f64> {
+        self.temper.get(name).or_else(|| self.nature.habits.get(name))
+    }
+
+    fn set(&mut self, name: &str, value: f64) -> Result<()> {
+        if self.nature.habits.get(name).is_some() {
+            return self.nature.habits.set(name, value);
+        }
+        self.temper.set(name, value)
+    }
 }
 
 /// What a fish does in one tick.

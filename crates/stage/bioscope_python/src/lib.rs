@@ -59,7 +59,7 @@ mod _engine {
     #[pymodule_export]
     use super::png::encode_png;
     #[pymodule_export]
-    use super::population::{Resident, resident};
+    use super::population::{Resident, fish_species, resident};
     #[pymodule_export]
     use super::publication::Publication;
     #[pymodule_export]

@@ -31,6 +31,12 @@ pub fn resident(
     Ok(Resident::new(population))
 }
 
+/// The names of the species of fish that come with the engine.
+#[pyfunction]
+pub fn fish_species() -> Vec<&'static str> {
+    bioscope_populations::fish::FishSpecies::names()
+}
+
 impl Resident {
     pub fn new(population: Box<dyn Population>) -> Self {
         Self { population: Mutex::new(Some(population)) }

@@ -314,7 +314,14 @@ impl World {
         self.with(py, |world| world.set(owner, name, value))
     }
 
-    /// What is known of one individual: population, species, behavior, values, percepts, eye.
+    /// Tells a population something: `order` is a JSON text of one of the orders.
+    fn order(&self, py: Python<'_>, population: &str, order: &str) -> PyResult<()> {
+        let order = serde_json::from_str(order)
+            .map_err(|error| to_python(Error::format("order", error.to_string())))?;
+        self.with(py, |world| world.order(population, &order))
+    }
+
+    /// What is known of one individual: population, species, behavior, values, traits, percepts, eye.
     fn inspect<'py>(&self, py: Python<'py>, id: u32) -> PyResult<Option<Bound<'py, PyDict>>> {
         let found = self.with(py, |world| {
             Ok(world.inspect(id).map(|(population, one)| (population.to_owned(), one)))
@@ -326,6 +333,7 @@ impl World {
         dict.set_item("species", inspection.species)?;
         dict.set_item("behavior", inspection.behavior)?;
         dict.set_item("values", values::dict(py, &inspection.values)?)?;
+        dict.set_item("traits", inspection.traits)?;
         dict.set_item("percepts", values::dict(py, &inspection.percepts)?)?;
         let eye = inspection.eye.map(|camera| Bound::new(py, Camera { camera })).transpose()?;
         dict.set_item("eye", eye)?;

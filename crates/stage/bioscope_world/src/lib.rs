@@ -6,6 +6,7 @@
 
 mod environment;
 mod input;
+mod order;
 mod population;
 mod publication;
 mod registry;
@@ -14,8 +15,9 @@ mod tick;
 mod world;
 
 pub use environment::{Environment, EnvironmentParameters};
-pub use input::{Input, Recording};
-pub use population::{Growth, Inspection, Moment, Population, View};
+pub use input::{Change, Input, Recording};
+pub use order::{Order, Steering};
+pub use population::{Growth, Inspection, Moment, Population, View, no_such_order};
 pub use publication::Publication;
 pub use registry::Registry;
 pub use world::World;

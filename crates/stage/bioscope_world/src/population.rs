@@ -1,10 +1,10 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use bioscope_core::{Event, Id, Parameters, Purpose, Random, Result, SoundEvent, Value};
+use bioscope_core::{Error, Event, Id, Parameters, Purpose, Random, Result, SoundEvent, Value};
 use bioscope_geometry::{Camera, Scene};
 
-use crate::{Environment, Publication};
+use crate::{Environment, Order, Publication};
 
 /// The one contract that the tick knows: a batch of individuals that implements the five verbs.
 ///
@@ -62,6 +62,11 @@ pub trait Population: Send {
         None
     }
 
+    /// Obeys an order from outside, between two ticks. One that is refused changes nothing.
+    fn obey(&mut self, order: &Order, _growth: &mut Growth) -> Result<()> {
+        Err(no_such_order(self.kind(), order))
+    }
+
     /// Inner life of one individual; none if it is not of this population.
     fn inspect(&self, _individual: Id) -> Option<Inspection> {
         None
@@ -88,6 +93,11 @@ pub trait Population: Send {
     fn default_name(&self) -> String {
         self.kind().to_owned()
     }
+}
+
+/// The refusal of an order that makes no sense for a population of this kind.
+pub fn no_such_order(kind: &str, order: &Order) -> Error {
+    Error::value("order", format!("{order:?}"), format!("an order that {kind} can obey"))
 }
 
 /// The present moment.
@@ -143,7 +153,7 @@ impl Growth<'_> {
     pub fn identities(&mut self, count: usize) -> Result<Vec<Id>> {
         let available = (Id::MAX - *self.next_id) as usize;
         if count > available {
-            return Err(bioscope_core::Error::Limit {
+            return Err(Error::Limit {
                 what: format!("{count} more individuals"),
                 limit: format!("{} in the life of a world", Id::MAX),
             });
@@ -163,6 +173,8 @@ pub struct Inspection {
     pub behavior: Option<String>,
     /// Live values of its body and mind, units in the names.
     pub values: BTreeMap<String, Value>,
+    /// Its own values of the population's parameters, where individuals may differ in them.
+    pub traits: BTreeMap<String, f64>,
     /// What it notices.
     pub percepts: BTreeMap<String, Value>,
     /// Through which it sees, if it sees.

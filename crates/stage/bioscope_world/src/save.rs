@@ -3,7 +3,7 @@ use bioscope_geometry::{Medium, Obstacle, Rig, Sky, Terrain};
 use serde::{Deserialize, Serialize};
 
 use crate::world::Resident;
-use crate::{EnvironmentParameters, Input, Recording, Registry, World};
+use crate::{Change, EnvironmentParameters, Recording, Registry, World};
 
 /// First bytes of every saved world.
 const MAGIC: &[u8] = b"bioscope world\n";
@@ -17,6 +17,7 @@ struct State {
     seed: u64,
     dt: f64,
     tick: u64,
+    epoch: (u64, f64),
     next_id: u32,
     terrain: Option<Terrain>,
     medium: Medium,
@@ -71,7 +72,8 @@ impl World {
     }
 
     /// Goes back (or forward) to a saved state of this same world, keeping what its populations
-    /// have already built; populations and fields must be those of the saved state.
+    /// have already built; populations and fields must be those of the saved state. Populations that
+    /// were added after it are gone.
     pub fn return_to(&mut self, bytes: &[u8]) -> Result<()> {
         self.restore_state(body(bytes)?)
     }
@@ -86,7 +88,7 @@ impl World {
         let mut inputs = recording.inputs.iter().peekable();
         loop {
             while let Some(input) = inputs.next_if(|input| input.tick <= world.tick) {
-                world.apply(input)?;
+                world.apply(&input.change, registry)?;
             }
             if world.tick >= recording.end {
                 return Ok(world);
@@ -97,8 +99,15 @@ impl World {
     }
 
     /// Makes a recorded change again.
-    pub fn apply(&mut self, input: &Input) -> Result<()> {
-        self.set(&input.owner, &input.name, input.value)
+    fn apply(&mut self, change: &Change, registry: &Registry) -> Result<()> {
+        match change {
+            Change::Set { owner, name, value } => self.set(owner, name, *value),
+            Change::Order { population, order } => self.order(population, order),
+            Change::Add { name, kind, state } => {
+                let population = registry.population(kind, state)?;
+                self.add(population, Some(name)).map(|_| ())
+            }
+        }
     }
 
     pub(crate) fn save_state(&self) -> Result<Vec<u8>> {
@@ -117,6 +126,7 @@ impl World {
             seed: self.seed,
             dt: self.dt,
             tick: self.tick,
+            epoch: self.epoch,
             next_id: self.next_id,
             terrain: environment.terrain.as_deref().cloned(),
             medium: environment.medium,
@@ -133,11 +143,12 @@ impl World {
 
     pub(crate) fn restore_state(&mut self, body: &[u8]) -> Result<()> {
         let state: State = state::from_bytes(PART, body)?;
-        let names = |saved: &[Saved]| saved.iter().map(|one| one.name.clone()).collect::<Vec<_>>();
-        let residents: Vec<_> = self.populations.iter().map(|one| one.name.clone()).collect();
-        if names(&state.populations) != residents {
+        let residents = self.populations.iter().map(|one| &one.name);
+        let shared = state.populations.iter().zip(residents).take_while(|(a, b)| a.name == **b);
+        if shared.count() != state.populations.len() {
             return Err(Error::format(PART, "its populations are not those of this world"));
         }
+        self.populations.truncate(state.populations.len());
         for (resident, saved) in self.populations.iter_mut().zip(&state.populations) {
             resident.population.restore(&saved.bytes)?;
         }
@@ -152,6 +163,8 @@ impl World {
     /// Takes over everything but fields and populations.
     fn take(&mut self, state: State) {
         self.tick = state.tick;
+        self.dt = state.dt;
+        self.epoch = state.epoch;
         self.next_id = state.next_id;
         self.environment.terrain = state.terrain.map(Into::into);
         self.environment.medium = state.medium;

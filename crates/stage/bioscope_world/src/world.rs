@@ -5,7 +5,9 @@ use bioscope_core::{Error, Event, Id, Parameter, Parameters, Result, SoundEvent,
 use bioscope_dynamics::Field;
 use bioscope_geometry::{Rig, Scene};
 
-use crate::{Environment, Growth, Input, Inspection, Moment, Population, Recording, View};
+use crate::{
+    Change, Environment, Growth, Input, Inspection, Moment, Order, Population, Recording, View,
+};
 
 /// One world: time, environment and everything that lives in it.
 ///
@@ -15,6 +17,8 @@ pub struct World {
     pub(crate) seed: u64,
     pub(crate) dt: f64,
     pub(crate) tick: u64,
+    /// A tick and its world time in seconds: from there on ticks have had their present length.
+    pub(crate) epoch: (u64, f64),
     /// Terrain, medium, light, fields.
     pub environment: Environment,
     pub(crate) populations: Vec<Resident>,
@@ -49,6 +53,21 @@ struct Recorder {
 
 /// Owner name of the environment's parameters.
 const ENVIRONMENT: &str = "environment";
+/// Owner name of the world's own parameter.
+const WORLD: &str = "world";
+
+/// The length of a tick as a parameter.
+fn time_step() -> Parameter {
+    Parameter {
+        name: String::from("time_step"),
+        unit: String::from("s"),
+        minimum: 1e-4,
+        maximum: 10.0,
+        default: 1.0 / 60.0,
+        meaning: String::from("Length of a tick; shorter ones follow motion more exactly."),
+        source: String::from("choice"),
+    }
+}
 
 impl World {
     /// An empty world; `dt` is the length of a tick in seconds.
@@ -60,6 +79,7 @@ impl World {
             seed,
             dt,
             tick: 0,
+            epoch: (0, 0.0),
             environment: Environment::default(),
             populations: Vec::new(),
             rigs: Vec::new(),
@@ -91,7 +111,13 @@ impl World {
 
     /// World time in seconds.
     pub fn time(&self) -> f64 {
-        self.tick as f64 * self.dt
+        self.time_at(self.tick)
+    }
+
+    /// World time of a tick, if ticks keep their present length.
+    fn time_at(&self, tick: u64) -> f64 {
+        let (since, time) = self.epoch;
+        time + (tick as f64 - since as f64) * self.dt
     }
 
     /// What the last tick published.
@@ -127,6 +153,8 @@ impl World {
         name: Option<&str>,
     ) -> Result<String> {
         let name = self.free_name(name, &population.default_name())?;
+        let kind = population.kind().to_owned();
+        let state = if self.recorder.is_some() { population.save()? } else { Vec::new() };
         let moment = self.moment(self.tick);
         let mut growth = Growth {
             moment,
@@ -137,6 +165,7 @@ impl World {
         };
         population.settle(&mut growth)?;
         self.populations.push(Resident { name: name.clone(), population });
+        self.note(Change::Add { name: name.clone(), kind, state });
         self.publish()?;
         Ok(name)
     }
@@ -167,7 +196,7 @@ impl World {
     }
 
     pub(crate) fn moment(&self, tick: u64) -> Moment {
-        Moment { seed: self.seed, tick, time: tick as f64 * self.dt, dt: self.dt as f32 }
+        Moment { seed: self.seed, tick, time: self.time_at(tick), dt: self.dt as f32 }
     }
 
     pub(crate) fn view(&self, moment: Moment) -> View<'_> {
@@ -190,6 +219,7 @@ impl World {
         };
         let mut all =
             BTreeMap::from([(ENVIRONMENT.to_owned(), with_values(&self.environment.parameters))]);
+        all.insert(WORLD.to_owned(), vec![(time_step(), self.dt)]);
         for (name, field) in &self.environment.fields {
             all.extend(field.parameters().map(|one| (name.clone(), with_values(one))));
         }
@@ -209,9 +239,12 @@ impl World {
         }
     }
 
-    /// Sets a parameter of a population, a field or the `environment` between two ticks.
+    /// Sets a parameter of a population, a field, the `environment` or the `world` between two ticks.
     pub fn set(&mut self, owner: &str, name: &str, value: f64) -> Result<()> {
         self.owner(owner)?;
+        if owner == WORLD {
+            self.set_own(name, value)?;
+        }
         let fields = self.environment.fields.iter_mut();
         let populations = self.populations.iter_mut();
         let parameters = if owner == ENVIRONMENT {
@@ -230,11 +263,48 @@ impl World {
         if let Some(parameters) = parameters {
             parameters.set(name, value)?;
         }
-        if let Some(recorder) = &mut self.recorder {
-            let (owner, name) = (owner.to_owned(), name.to_owned());
-            recorder.inputs.push(Input { tick: self.tick, owner, name, value });
-        }
+        self.note(Change::Set { owner: owner.to_owned(), name: name.to_owned(), value });
         self.publish_again()
+    }
+
+    fn set_own(&mut self, name: &str, value: f64) -> Result<()> {
+        let known = time_step();
+        if name != known.name {
+            let (name, known) = (name.to_owned(), vec![known.name]);
+            return Err(Error::Unknown { kind: "parameter", name, known });
+        }
+        known.check(value)?;
+        self.epoch = (self.tick, self.time());
+        self.dt = value;
+        Ok(())
+    }
+
+    /// Tells a population something between two ticks.
+    pub fn order(&mut self, population: &str, order: &Order) -> Result<()> {
+        order.check()?;
+        let moment = self.moment(self.tick);
+        let known = || self.populations.iter().map(|one| one.name.clone()).collect();
+        let Some(index) = self.populations.iter().position(|one| one.name == population) else {
+            let (name, known) = (population.to_owned(), known());
+            return Err(Error::Unknown { kind: "population", name, known });
+        };
+        let mut growth = Growth {
+            moment,
+            scene: &self.scene,
+            events: &self.latest,
+            environment: &mut self.environment,
+            next_id: &mut self.next_id,
+        };
+        self.populations[index].population.obey(order, &mut growth)?;
+        self.note(Change::Order { population: population.to_owned(), order: order.clone() });
+        self.publish_again()
+    }
+
+    /// Keeps a change from outside, if changes are recorded.
+    fn note(&mut self, change: Change) {
+        if let Some(recorder) = &mut self.recorder {
+            recorder.inputs.push(Input { tick: self.tick, change });
+        }
     }
 
     /// Inner life of one individual, with the name of its population.

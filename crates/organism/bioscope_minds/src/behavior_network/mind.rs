@@ -109,11 +109,11 @@ impl Mind for BehaviorNetwork {
     }
 
     fn parameters(&self) -> Option<&dyn Parameters> {
-        Some(&self.character.temper)
+        Some(&self.character)
     }
 
     fn parameters_mut(&mut self) -> Option<&mut dyn Parameters> {
-        Some(&mut self.character.temper)
+        Some(&mut self.character)
     }
 
     fn save(&self) -> Result<Vec<u8>> {

@@ -1,6 +1,6 @@
 use std::sync::Arc;
 
-use bioscope_core::{Sex, Sighting};
+use bioscope_core::{Error, Parameter, Result, Sex, Sighting};
 use serde::{Deserialize, Serialize};
 
 /// How a fish lives (Tu 1996, section 6.5): which intentions its kind does not have.
@@ -46,6 +46,56 @@ pub struct Habits {
     pub school: bool,
     /// Female rather than male.
     pub female: bool,
+}
+
+/// Names and meanings of the habits as switches.
+const SWITCHES: [(&str, &str); 6] = [
+    ("likes_bright", "Whether it likes brightness; with darkness too: indifferent."),
+    ("likes_dark", "Whether it likes darkness; with brightness too: indifferent."),
+    ("likes_cold", "Whether it likes cold water; with warm water too: indifferent."),
+    ("likes_warm", "Whether it likes warm water; with cold water too: indifferent."),
+    ("likes_company", "Whether it likes the company of its kind."),
+    ("female", "Whether it is female."),
+];
+
+impl Habits {
+    /// The habits as parameters: 0 without, 1 with.
+    pub fn descriptions() -> impl Iterator<Item = Parameter> {
+        SWITCHES.into_iter().map(|(name, meaning)| Parameter {
+            name: name.to_owned(),
+            unit: String::from("1"),
+            minimum: 0.0,
+            maximum: 1.0,
+            default: 0.0,
+            meaning: meaning.to_owned(),
+            source: String::from("Tu 1996, 6.1"),
+        })
+    }
+
+    /// 1 with the habit of this name, 0 without.
+    pub fn get(&self, name: &str) -> Option<f64> {
+        let mut habits = *self;
+        habits.switch(name).map(|habit| f64::from(u8::from(*habit)))
+    }
+
+    /// Gives it the habit of this name from 0.5 on, takes it away below.
+    pub fn set(&mut self, name: &str, value: f64) -> Result<()> {
+        let Some(habit) = self.switch(name) else {
+            let known = SWITCHES.map(|(name, _)| name.to_owned()).to_vec();
+            return Err(Error::Unknown { kind: "habit", name: name.to_owned(), known });
+        };
+        if !(0.0..=1.0).contains(&value) {
+            return Err(Error::value(name, value, "0 to 1"));
+        }
+        *habit = value >= 0.5;
+        Ok(())
+    }
+
+    fn switch(&mut self, name: &str) -> Option<&mut bool> {
+        let number = SWITCHES.iter().position(|(known, _)| *known == name)?;
+        let Self { bright, dark, cold, warm, school, female } = self;
+        Some([bright, dark, cold, warm, school, female].into_iter().nth(number)?)
+    }
 }
 
 /// What another animal is to a fish.

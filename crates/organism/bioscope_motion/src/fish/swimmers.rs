@@ -52,6 +52,11 @@ impl<R: Dispatch> Swimmers<R> {
         &self.model
     }
 
+    /// Gives them other tissue and water: a model with the same tables of motor controllers.
+    pub(crate) fn set_model(&mut self, model: Arc<FishModel>) {
+        self.model = model;
+    }
+
     /// Seconds in a time unit of the model.
     pub fn time_unit(&self) -> f64 {
         self.time_unit

@@ -6,8 +6,10 @@
 //! Animals for Computer Animation", section 5.1, binds NURBS control points to the nodes; here the
 //! spine of the skinned form follows the same line).
 
+mod physics;
 mod swimmer;
 #[cfg(test)]
 mod tests;
 
+pub use physics::MusclePhysics;
 pub use swimmer::MuscleSwimmer;

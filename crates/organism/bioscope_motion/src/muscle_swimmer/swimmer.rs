@@ -1,10 +1,13 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use bioscope_core::{Intention, Quat, Random, Result, Value, Vec3, math, state};
+use bioscope_core::{
+    Intention, Parameter, Parameters, Quat, Random, Result, Value, Vec3, math, state,
+};
 use bioscope_dynamics::Influence;
 use bioscope_geometry::Transform;
 
+use super::MusclePhysics;
 use crate::Body;
 use crate::fish::{Command, FishModel, Swimmers, pose_from_nodes, wrapped};
 use crate::undulation::{Spine, SwimState};
@@ -19,6 +22,7 @@ const LEVELING: f32 = 0.3;
 #[derive(Clone, Debug)]
 pub struct MuscleSwimmer {
     preset: String,
+    physics: MusclePhysics,
     fish: Swimmers,
     spine: Arc<Spine>,
     /// Rowing fins and the mouth, which none of the simulated muscles moves.
@@ -35,7 +39,8 @@ impl MuscleSwimmer {
         let cruise = f64::from(spine.gait().cruise);
         let mut fish = Swimmers::new(FishModel::named(preset)?, cruise)?;
         fish.add([0.0; 3], Quat::IDENTITY, f64::from(spine.length()))?;
-        Ok(Self { preset: preset.to_owned(), fish, spine, swim: SwimState::default() })
+        let physics = MusclePhysics::default();
+        Ok(Self { preset: preset.to_owned(), physics, fish, spine, swim: SwimState::default() })
     }
 
     /// The fish that [`save`](Body::save) stored.
@@ -43,10 +48,13 @@ impl MuscleSwimmer {
     /// # Errors
     /// For damaged bytes.
     pub fn restore(spine: Arc<Spine>, bytes: &[u8]) -> Result<Self> {
-        let (preset, fish, swim): (String, Vec<u8>, SwimState) =
+        let (preset, physics, fish, swim): (String, MusclePhysics, Vec<u8>, SwimState) =
             state::from_bytes("muscle_swimmer", bytes)?;
-        let fish = Swimmers::restore_one(FishModel::named(&preset)?, &fish)?;
-        Ok(Self { preset, fish, spine, swim })
+        for one in physics.descriptions() {
+            one.check(physics.get(&one.name).unwrap_or(f64::NAN))?;
+        }
+        let fish = Swimmers::restore_one(physics.model(&preset)?, &fish)?;
+        Ok(Self { preset, physics, fish, spine, swim })
     }
 
     /// Takes up what the mind intends and what acts on it; the next [`advance`](Self::advance_together) does it.
@@ -207,7 +215,34 @@ impl Body for MuscleSwimmer {
         ])
     }
 
+    fn parameters(&self) -> Option<&dyn Parameters> {
+        Some(self)
+    }
+
+    fn parameters_mut(&mut self) -> Option<&mut dyn Parameters> {
+        Some(self)
+    }
+
     fn save(&self) -> Result<Vec<u8>> {
-        Ok(state::to_bytes(&(&self.preset, self.fish.save_one()?, self.swim)))
+        Ok(state::to_bytes(&(&self.preset, &self.physics, self.fish.save_one()?, self.swim)))
+    }
+}
+
+/// Those of its physics; a change takes effect in the next step.
+impl Parameters for MuscleSwimmer {
+    fn descriptions(&self) -> Vec<Parameter> {
+        self.physics.descriptions()
+    }
+
+    fn get(&self, name: &str) -> Option<f64> {
+        self.physics.get(name)
+    }
+
+    fn set(&mut self, name: &str, value: f64) -> Result<()> {
+        let mut physics = self.physics.clone();
+        physics.set(name, value)?;
+        self.fish.set_model(physics.model(&self.preset)?);
+        self.physics = physics;
+        Ok(())
     }
 }

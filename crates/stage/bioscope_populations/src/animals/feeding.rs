@@ -6,7 +6,7 @@
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
-use bioscope_core::{Event, Id, NOTHING, SoundEvent, Vec3};
+use bioscope_core::{Event, Id, NOTHING, Percepts, SoundEvent, Vec3};
 use bioscope_motion::Body;
 use bioscope_world::Moment;
 
@@ -41,6 +41,14 @@ pub(super) fn bite(record: &Record) -> Option<Id> {
     let morsel = noticed.find(|one| one.id == target)?;
     let distance = morsel.position.distance(Vec3::Z * (MOUTH * length)) - 0.5 * morsel.size;
     (distance <= REACH * length && morsel.size <= MOUTHFUL * length).then_some(target)
+}
+
+/// The food that it notices nearest to its mouth.
+pub(super) fn mouthful(percepts: &Percepts) -> Option<Id> {
+    let mouth = Vec3::Z * (MOUTH * percepts.body_length);
+    let distance = |place: Vec3| place.distance_squared(mouth);
+    let food = percepts.smelled.iter();
+    food.min_by(|a, b| distance(a.position).total_cmp(&distance(b.position))).map(|one| one.id)
 }
 
 /// The event of a bite.

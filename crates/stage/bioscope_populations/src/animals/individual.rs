@@ -7,7 +7,7 @@ use bioscope_dynamics::Influence;
 use bioscope_minds::Mind;
 use bioscope_motion::Body;
 use bioscope_senses::{Outlook, Sense, Surroundings};
-use bioscope_world::{Environment, Moment, View};
+use bioscope_world::{Environment, Moment, Steering, View};
 use serde::{Deserialize, Serialize};
 
 use super::Look;
@@ -54,7 +54,7 @@ pub(super) struct Individual {
 }
 
 /// What is known of an individual beside its parts.
-#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct Record {
     /// Place it calls home, metres.
     pub home: Vec3,
@@ -78,6 +78,8 @@ pub(super) struct Record {
     shown: Act,
     /// Stage of a courtship that is reported in this tick.
     stage: Option<usize>,
+    /// What somebody commands in place of its mind, which goes on feeling.
+    pub steering: Option<Steering>,
 }
 
 impl Individual {
@@ -128,7 +130,12 @@ impl Individual {
         let mut random = moment.random(self.id, DECISION);
         record.annotations.clear();
         let mind = &mut self.parts.mind;
-        let intention = mind.decide(&record.percepts, &mut random, &mut record.annotations)?;
+        let mut intention = mind.decide(&record.percepts, &mut random, &mut record.annotations)?;
+        if let Some(steering) = &record.steering {
+            let mouthful = super::feeding::mouthful(&record.percepts);
+            intention = super::orders::commanded(steering, &intention, mouthful);
+            record.annotations.clear();
+        }
         let changed = intention.behavior != record.intention.behavior;
         record.intention = intention;
         record.bite = super::feeding::bite(record);

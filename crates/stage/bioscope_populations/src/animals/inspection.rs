@@ -16,6 +16,7 @@ pub(super) fn inspect(individual: &Individual) -> Inspection {
     values.insert("wanted_speed_body_lengths_per_s".into(), intention.speed.into());
     values.insert("wanted_heading".into(), intention.heading.into());
     values.insert("urgency".into(), intention.urgency.into());
+    values.insert("steered".into(), record.steering.is_some().into());
     if let Some(target) = intention.target {
         values.insert("target".into(), f64::from(target).into());
     }
@@ -24,6 +25,7 @@ pub(super) fn inspect(individual: &Individual) -> Inspection {
         species: parts.look.species.to_string(),
         behavior: Some(intention.behavior.to_string()),
         values,
+        traits: super::settings::traits(parts),
         percepts: percepts(&record.percepts),
         eye: parts.senses.iter().find_map(|sense| sense.eye(&placement, body.length())),
     }

@@ -19,6 +19,7 @@ mod individual;
 mod inspection;
 mod kinds;
 mod look;
+mod orders;
 mod population;
 mod saved;
 mod settings;

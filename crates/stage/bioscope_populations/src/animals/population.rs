@@ -9,12 +9,13 @@ use bioscope_dynamics::Influence;
 use bioscope_geometry::{Batch, Transform};
 use bioscope_motion::MuscleSwimmer;
 use bioscope_senses::{Memory, Outlook};
-use bioscope_world::{Environment, Growth, Inspection, Population, Publication, View};
+use bioscope_world::{Environment, Growth, Inspection, Order, Population, Publication, View};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::contact::way_out;
 use super::individual::{Individual, Record};
+use super::saved::SavedIndividual;
 use super::{Animal, Kinds, feeding, hooked};
 use crate::bites::{CAUGHT, Gone};
 use crate::names::free_name;
@@ -55,6 +56,8 @@ impl Default for AnimalsOptions {
 pub struct Animals {
     pub(super) options: AnimalsOptions,
     pub(super) individuals: Vec<Individual>,
+    /// What newcomers are made like, in turn: the first individuals before they lived.
+    pub(super) patterns: Vec<SavedIndividual>,
     pub(super) kinds: Arc<Kinds>,
     /// Those that were caught in this tick.
     pub(super) caught: Vec<Gone>,
@@ -65,16 +68,15 @@ pub struct Animals {
 impl Animals {
     /// A population of these animals. `kinds` must know all kinds of their parts, for saving.
     pub fn new(animals: Vec<Animal>, options: AnimalsOptions, kinds: Arc<Kinds>) -> Result<Self> {
-        if animals.len() > LARGEST_COUNT {
-            return Err(Error::value("count", animals.len(), format!("up to {LARGEST_COUNT}")));
-        }
+        check_count(animals.len())?;
         check_options(&options)?;
         animals.iter().try_for_each(check)?;
         let individuals = animals
             .into_iter()
             .map(|parts| Individual { id: NOTHING, parts, record: Record::default() })
             .collect();
-        Ok(Self { options, individuals, kinds, caught: Vec::new(), memory: Arc::default() })
+        let (patterns, caught) = (Vec::new(), Vec::new());
+        Ok(Self { options, individuals, patterns, kinds, caught, memory: Arc::default() })
     }
 
     /// Runs `work` on every individual: in parallel, or in order where a part is the user's own. Of
@@ -121,6 +123,36 @@ impl Animals {
         }
         batch
     }
+}
+
+/// Refuses more animals than one population may have.
+pub(super) fn check_count(count: usize) -> Result<()> {
+    if count <= LARGEST_COUNT {
+        return Ok(());
+    }
+    Err(Error::value("count", count, format!("up to {LARGEST_COUNT}")))
+}
+
+/// Gives a newcomer its identity, its size and color, and its place.
+pub(super) fn be_born(
+    individual: &mut Individual,
+    id: Id,
+    options: &AnimalsOptions,
+    growth: &Growth,
+) {
+    let AnimalsOptions { place, home, variation } = *options;
+    let mut random = growth.moment.random(id, BIRTH);
+    let body = &mut individual.parts.body;
+    body.vary(variation, &mut random);
+    if let Some(place) = place {
+        let position = room(place, body.length(), growth.environment, &mut random);
+        let bearing = random.range(0.0, math::TAU);
+        body.put(position, Vec3::new(math::sin(bearing), 0.0, math::cos(bearing)));
+    }
+    let began = body.placement().position;
+    individual.id = id;
+    individual.record.home = home.or(place.map(|place| place.center)).unwrap_or(began);
+    individual.record.tint = tint(variation, &mut random);
 }
 
 fn check_options(options: &AnimalsOptions) -> Result<()> {
@@ -173,20 +205,9 @@ impl Population for Animals {
 
     fn settle(&mut self, growth: &mut Growth) -> Result<()> {
         let ids = growth.identities(self.individuals.len())?;
-        let AnimalsOptions { place, home, variation } = self.options;
+        self.patterns = self.distinct()?;
         for (individual, id) in self.individuals.iter_mut().zip(ids) {
-            let mut random = growth.moment.random(id, BIRTH);
-            let body = &mut individual.parts.body;
-            body.vary(variation, &mut random);
-            if let Some(place) = place {
-                let position = room(place, body.length(), growth.environment, &mut random);
-                let bearing = random.range(0.0, math::TAU);
-                body.put(position, Vec3::new(math::sin(bearing), 0.0, math::cos(bearing)));
-            }
-            let began = body.placement().position;
-            individual.id = id;
-            individual.record.home = home.or(place.map(|place| place.center)).unwrap_or(began);
-            individual.record.tint = tint(variation, &mut random);
+            be_born(individual, id, &self.options, growth);
         }
         Ok(())
     }
@@ -228,6 +249,10 @@ impl Population for Animals {
         self.caught = feeding::be_caught(&mut self.individuals, growth.events);
         hooked::hook(&mut self.individuals, growth.events);
         Ok(())
+    }
+
+    fn obey(&mut self, order: &Order, growth: &mut Growth) -> Result<()> {
+        self.follow(order, growth)
     }
 
     fn publish(&self, publication: &mut Publication) -> Result<()> {

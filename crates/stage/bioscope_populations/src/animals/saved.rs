@@ -8,16 +8,19 @@ use super::{Animal, Animals, AnimalsOptions, Kinds};
 use crate::bites::Gone;
 
 const PART: &str = "animals";
+/// How many of the first individuals are looked at for what newcomers may be like.
+const MOST_PATTERNS: usize = 16;
 
 #[derive(Serialize, Deserialize)]
 struct State {
     options: AnimalsOptions,
     individuals: Vec<SavedIndividual>,
+    patterns: Vec<SavedIndividual>,
     caught: Vec<Gone>,
 }
 
-#[derive(Serialize, Deserialize)]
-struct SavedIndividual {
+#[derive(Clone, PartialEq, Serialize, Deserialize)]
+pub(super) struct SavedIndividual {
     id: Id,
     look: SavedPart,
     senses: Vec<SavedPart>,
@@ -27,7 +30,7 @@ struct SavedIndividual {
     record: Record,
 }
 
-#[derive(Serialize, Deserialize)]
+#[derive(Clone, PartialEq, Serialize, Deserialize)]
 struct SavedPart {
     kind: String,
     bytes: Vec<u8>,
@@ -38,8 +41,8 @@ impl Animals {
     pub fn from_saved(bytes: &[u8], kinds: Arc<Kinds>) -> Result<Self> {
         let state: State = state::from_bytes(PART, bytes)?;
         let (options, memory) = (state.options, Arc::default());
-        let (individuals, caught) = (Vec::new(), state.caught);
-        let mut animals = Self { options, individuals, kinds, caught, memory };
+        let (individuals, patterns, caught) = (Vec::new(), state.patterns, state.caught);
+        let mut animals = Self { options, individuals, patterns, kinds, caught, memory };
         for saved in state.individuals {
             let individual = animals.rebuild(saved)?;
             animals.individuals.push(individual);
@@ -48,7 +51,7 @@ impl Animals {
     }
 
     /// One individual, sharing its look with those that look alike.
-    fn rebuild(&self, saved: SavedIndividual) -> Result<Individual> {
+    pub(super) fn rebuild(&self, saved: SavedIndividual) -> Result<Individual> {
         let known = self.individuals.iter().map(|one| &one.parts.look);
         let mut known = known
             .filter(|look| look.kind == saved.look.kind && look.description == saved.look.bytes);
@@ -74,13 +77,27 @@ impl Animals {
             .map(|saved| self.rebuild(saved))
             .collect::<Result<_>>()?;
         (self.options, self.individuals, self.caught) = (state.options, restored, state.caught);
+        self.patterns = state.patterns;
         Ok(())
     }
 
     pub(super) fn to_saved(&self) -> Result<Vec<u8>> {
         let individuals = self.individuals.iter().map(save_one).collect::<Result<_>>()?;
         let (options, caught) = (self.options.clone(), self.caught.clone());
-        Ok(state::to_bytes(&State { options, individuals, caught }))
+        let patterns = self.patterns.clone();
+        Ok(state::to_bytes(&State { options, individuals, patterns, caught }))
+    }
+
+    /// The distinct kinds of individuals there are, as newcomers are made.
+    pub(super) fn distinct(&self) -> Result<Vec<SavedIndividual>> {
+        let mut patterns: Vec<SavedIndividual> = Vec::new();
+        for one in self.individuals.iter().take(MOST_PATTERNS) {
+            let saved = save_one(one)?;
+            if !patterns.contains(&saved) {
+                patterns.push(saved);
+            }
+        }
+        Ok(patterns)
     }
 }
 

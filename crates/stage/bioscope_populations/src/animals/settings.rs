@@ -1,3 +1,5 @@
+use std::collections::BTreeMap;
+
 use bioscope_core::{Error, Parameter, Parameters, Result};
 
 use super::individual::Individual;
@@ -30,13 +32,22 @@ impl Parameters for Animals {
 
     fn set(&mut self, name: &str, value: f64) -> Result<()> {
         // Checked first, so that a refused value changes nobody.
-        let descriptions = self.descriptions();
-        let Some(parameter) = descriptions.iter().find(|one| one.name == name) else {
-            let known = descriptions.into_iter().map(|one| one.name).collect();
-            return Err(Error::Unknown { kind: "parameter", name: name.to_owned(), known });
-        };
-        parameter.check(value)?;
+        self.described(name)?.check(value)?;
         self.individuals.iter_mut().try_for_each(|individual| set_one(individual, name, value))
+    }
+}
+
+impl Animals {
+    /// The description of one parameter.
+    pub(super) fn described(&self, name: &str) -> Result<Parameter> {
+        let mut known = self.descriptions();
+        match known.iter().position(|one| one.name == name) {
+            Some(index) => Ok(known.swap_remove(index)),
+            None => {
+                let known = known.into_iter().map(|one| one.name).collect();
+                Err(Error::Unknown { kind: "parameter", name: name.to_owned(), known })
+            }
+        }
     }
 }
 
@@ -49,7 +60,7 @@ fn parts(animal: &Animal) -> Vec<(&str, &dyn Parameters)> {
     all.filter_map(|(kind, parameters)| Some((kind, parameters?))).collect()
 }
 
-fn set_one(individual: &mut Individual, name: &str, value: f64) -> Result<()> {
+pub(super) fn set_one(individual: &mut Individual, name: &str, value: f64) -> Result<()> {
     let Animal { senses, mind, body, .. } = &mut individual.parts;
     let minds_word = mind.name().to_owned();
     let bodys_word = body.kind().to_owned();
@@ -64,6 +75,20 @@ fn set_one(individual: &mut Individual, name: &str, value: f64) -> Result<()> {
         }
     }
     Ok(())
+}
+
+/// The values that this animal's own parts have, by name.
+pub(super) fn traits(animal: &Animal) -> BTreeMap<String, f64> {
+    let all = parts(animal).into_iter().flat_map(|(kind, parameters)| {
+        let names = parameters.descriptions().into_iter().map(|one| one.name);
+        names.filter_map(move |name| Some((full(kind, &name), parameters.get(&name)?)))
+    });
+    all.collect()
+}
+
+/// Whether an individual is born with a value of this parameter that its kin need not share.
+pub(super) fn is_innate(name: &str) -> bool {
+    name.ends_with("_female")
 }
 
 fn full(kind: &str, name: &str) -> String {

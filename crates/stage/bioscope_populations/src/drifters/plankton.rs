@@ -4,7 +4,9 @@ use bioscope_core::{
     Error, Event, Id, Parameters, Purpose, Random, Result, Vec3, math, parameters, state,
 };
 use bioscope_geometry::Points;
-use bioscope_world::{Environment, Growth, Moment, Population, Publication, View};
+use bioscope_world::{
+    Environment, Growth, Moment, Order, Population, Publication, View, no_such_order,
+};
 use serde::{Deserialize, Serialize};
 
 use crate::bites::{EATEN, Gone, bitten};
@@ -110,6 +112,26 @@ impl Plankton {
     /// Where each drifter is, metres.
     pub fn positions(&self) -> impl Iterator<Item = Vec3> + '_ {
         self.state.drifters.iter().map(|one| one.position)
+    }
+
+    /// Lets newcomers come to live anywhere in the box.
+    fn settle_more(&mut self, count: usize, growth: &mut Growth) -> Result<()> {
+        let options = &self.state.options;
+        let size = options.high - options.low;
+        for id in growth.identities(count)? {
+            let mut random = growth.moment.random(id, BIRTH);
+            let place = |random: &mut Random| {
+                let share = Vec3::new(random.uniform(), random.uniform(), random.uniform());
+                options.low + size * share
+            };
+            // A place below the ground is drawn again, so that the water above is not crowded.
+            let free = |point: &Vec3| in_water(*point, growth.environment) == *point;
+            let mut draws = (0..16).map(|_| place(&mut random));
+            let point = draws.find(free).unwrap_or(options.low + 0.5 * size);
+            let position = in_water(point, growth.environment);
+            self.state.drifters.push(Drifter::born(id, position, options, &mut random));
+        }
+        Ok(())
     }
 
     /// Lets go of those that were bitten.
@@ -264,23 +286,16 @@ impl Population for Plankton {
     }
 
     fn settle(&mut self, growth: &mut Growth) -> Result<()> {
-        let options = &self.state.options;
-        let size = options.high - options.low;
-        let mut drifters = Vec::with_capacity(options.count);
-        for id in growth.identities(options.count)? {
-            let mut random = growth.moment.random(id, BIRTH);
-            let place = |random: &mut Random| {
-                let share = Vec3::new(random.uniform(), random.uniform(), random.uniform());
-                options.low + size * share
-            };
-            // A place below the ground is drawn again, so that the water above is not crowded.
-            let free = |point: &Vec3| in_water(*point, growth.environment) == *point;
-            let mut draws = (0..16).map(|_| place(&mut random));
-            let point = draws.find(free).unwrap_or(options.low + 0.5 * size);
-            let position = in_water(point, growth.environment);
-            drifters.push(Drifter::born(id, position, options, &mut random));
-        }
-        self.state.drifters = drifters;
+        self.state.drifters.clear();
+        self.settle_more(self.state.options.count, growth)
+    }
+
+    fn obey(&mut self, order: &Order, growth: &mut Growth) -> Result<()> {
+        let Order::Number(count) = *order else { return Err(no_such_order(self.kind(), order)) };
+        check(&PlanktonOptions { count, ..self.state.options.clone() })?;
+        let missing = count.saturating_sub(self.count());
+        self.settle_more(missing, growth)?;
+        self.state.drifters.truncate(count);
         Ok(())
     }
 

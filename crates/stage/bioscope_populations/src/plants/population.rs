@@ -3,7 +3,7 @@ use std::sync::Arc;
 
 use bioscope_core::{Error, Id, Parameters, Purpose, Quat, Random, Result, Vec3, math, state};
 use bioscope_geometry::{Batch, Transform};
-use bioscope_world::{Growth, Inspection, Population, Publication, View};
+use bioscope_world::{Growth, Inspection, Order, Population, Publication, View, no_such_order};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
@@ -71,6 +71,21 @@ impl Plants {
     }
 }
 
+impl Plants {
+    /// Roots newcomers in the habitat, or lets the youngest go.
+    fn number(&mut self, count: usize, growth: &mut Growth) -> Result<()> {
+        let options = PlantsOptions { count, ..self.state.options.clone() };
+        options.check()?;
+        let missing = count.saturating_sub(self.state.plants.len());
+        self.state.plants.truncate(count);
+        let ids = growth.identities(missing)?;
+        let sites = options.habitat.sites(&ids, &[options.room], growth, PLACE);
+        let root = |(id, site)| Plant::root(id, site, &options, growth.moment.random(id, LOOK));
+        self.state.plants.extend(ids.into_iter().zip(sites).map(root));
+        Ok(())
+    }
+}
+
 fn read(bytes: &[u8]) -> Result<State> {
     let state: State = state::from_bytes("plants", bytes)?;
     state.options.check()?;
@@ -125,6 +140,21 @@ impl Population for Plants {
         self.state.plants = ids.into_iter().zip(sites).map(root).collect();
         self.state.seed = growth.moment.seed;
         Ok(())
+    }
+
+    fn obey(&mut self, order: &Order, growth: &mut Growth) -> Result<()> {
+        match *order {
+            Order::Number(count) => self.number(count, growth),
+            Order::Place { id, position, scale } => {
+                let plant = self.state.plants.iter_mut().find(|one| one.id == id);
+                let expected = || Error::value("id", id, "a plant of this population");
+                let plant = plant.ok_or_else(expected)?;
+                plant.position = position;
+                plant.size *= scale;
+                Ok(())
+            }
+            _ => Err(no_such_order(self.kind(), order)),
+        }
     }
 
     fn advance(&mut self, view: &View) -> Result<()> {

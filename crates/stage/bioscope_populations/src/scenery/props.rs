@@ -1,8 +1,11 @@
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use bioscope_core::{Error, Id, Result, Vec3, state};
 use bioscope_geometry::{Batch, Material, Mesh, Obstacle, Texture, Transform};
-use bioscope_world::{Growth, Population, Publication};
+use bioscope_world::{
+    Environment, Growth, Inspection, Order, Population, Publication, no_such_order,
+};
 use serde::{Deserialize, Serialize};
 
 use crate::names::free_name;
@@ -88,6 +91,48 @@ impl Props {
         let state: State = state::from_bytes("props", bytes)?;
         let props = Self::new(state.options.clone())?;
         Ok(Self { state, ..props })
+    }
+}
+
+/// The solid with everything moved from one place to another, and sized by `scale` about it.
+fn moved(solid: Obstacle, from: Vec3, to: Vec3, scale: f32) -> Obstacle {
+    let carry = |point: Vec3| to + (point - from) * scale;
+    match solid {
+        Obstacle::Sphere { center, radius } => {
+            Obstacle::Sphere { center: carry(center), radius: radius * scale }
+        }
+        Obstacle::Cylinder { base, top, radius } => {
+            Obstacle::Cylinder { base: carry(base), top: carry(top), radius: radius * scale }
+        }
+        Obstacle::Box { low, high } => Obstacle::Box { low: carry(low), high: carry(high) },
+        Obstacle::Plane { point, normal } => Obstacle::Plane { point: carry(point), normal },
+    }
+}
+
+impl Props {
+    /// Puts one elsewhere, with its solid if each has one.
+    fn put(
+        &mut self,
+        (id, position, scale): (Id, Vec3, f32),
+        environment: &mut Environment,
+    ) -> Result<()> {
+        let State { options, props } = &mut self.state;
+        let Some(index) = props.iter().position(|one| one.id == id) else {
+            return Err(Error::value("id", id, "a prop of this population"));
+        };
+        let place = &mut props[index].place;
+        if options.obstacles.len() == options.places.len() {
+            let solid = &mut options.obstacles[index];
+            let after = moved(*solid, place.position, position, scale);
+            let known = environment.obstacles.iter_mut().find(|one| *one == solid);
+            if let Some(known) = known {
+                *known = after;
+            }
+            *solid = after;
+        }
+        place.position = position;
+        place.scale *= scale;
+        Ok(())
     }
 }
 
@@ -181,6 +226,15 @@ impl Population for Props {
         Ok(())
     }
 
+    fn obey(&mut self, order: &Order, growth: &mut Growth) -> Result<()> {
+        match *order {
+            Order::Place { id, position, scale } => {
+                self.put((id, position, scale), growth.environment)
+            }
+            _ => Err(no_such_order(self.kind(), order)),
+        }
+    }
+
     fn publish(&self, publication: &mut Publication) -> Result<()> {
         let State { options, props } = &self.state;
         let name = free_name(&publication.scene, &options.species);
@@ -191,6 +245,16 @@ impl Population for Props {
         batch.alive = options.alive;
         publication.scene.batches.push(batch);
         Ok(())
+    }
+
+    fn inspect(&self, individual: Id) -> Option<Inspection> {
+        let prop = self.state.props.iter().find(|one| one.id == individual)?;
+        let values = BTreeMap::from([
+            (String::from("position"), prop.place.position.into()),
+            (String::from("scale"), prop.place.scale.into()),
+        ]);
+        let species = self.state.options.species.clone();
+        Some(Inspection { species, values, ..Inspection::default() })
     }
 
     fn count(&self) -> usize {

@@ -33,6 +33,7 @@ impl FishSchool {
             values: named(values),
             percepts: self.percepts(index),
             eye: Some(eye_camera(&placement, length, FIELD_OF_VIEW.to_radians())),
+            ..Inspection::default()
         }
     }
 

@@ -8,7 +8,7 @@ use bioscope_core::{
 use bioscope_crowds::{Flock, Goal, Home, Surroundings, statistics};
 use bioscope_geometry::{Batch, Transform};
 use bioscope_motion::undulation::spine_pose;
-use bioscope_world::{Growth, Inspection, Population, Publication, View};
+use bioscope_world::{Growth, Inspection, Order, Population, Publication, View, no_such_order};
 use rayon::prelude::*;
 
 use super::course::Course;
@@ -98,6 +98,14 @@ impl FishSchool {
         self.flock.parameters.body_length
     }
 
+    /// Takes one out, if it is here.
+    fn let_go(&mut self, id: Id) {
+        if let Some(index) = self.flock.ids().iter().position(|&one| one == id) {
+            self.flock.remove(id);
+            self.fishes.remove(index);
+        }
+    }
+
     /// The flock among what surrounds it.
     fn with_surroundings(
         &mut self,
@@ -116,6 +124,31 @@ impl FishSchool {
             flow: &self.scratch.flows,
         };
         verb(&mut self.flock, &surroundings)
+    }
+
+    /// Lets newcomers come, near the middle of the place where the school began.
+    fn join(&mut self, count: usize, growth: &mut Growth) -> Result<()> {
+        let FishSchoolOptions { center, half, ref species, .. } = self.options;
+        let variation = species.variation;
+        let (length, cruise) = (self.body_length(), self.flock.parameters.cruise_speed);
+        let ids = growth.identities(count)?;
+        // A school that has long been together swims one way.
+        let first = ids.first().copied().unwrap_or(NOTHING);
+        let common = growth.moment.random(first, COURSE).direction();
+        for id in ids {
+            let mut random = growth.moment.random(id, BIRTH);
+            let environment = &*growth.environment;
+            let mut draw = || center + half * random.in_ball();
+            let free = |place: &Vec3| way_out(*place, length, environment) == Vec3::ZERO;
+            let drawn = (0..32).map(|_| draw()).find(free);
+            let place = drawn.unwrap_or_else(|| center + way_out(center, length, environment));
+            let heading = common + random.direction() * HEADINGS;
+            let level = heading * Vec3::new(1.0, 0.2, 1.0);
+            let velocity = level.normalize_or(Vec3::Z) * (cruise * length);
+            self.flock.push(id, place, velocity)?;
+            self.fishes.push(Fish::born(variation, velocity, &mut random));
+        }
+        Ok(())
     }
 
     /// Looks for threats so near that somebody may flee.
@@ -261,28 +294,25 @@ impl Population for FishSchool {
     }
 
     fn settle(&mut self, growth: &mut Growth) -> Result<()> {
-        let FishSchoolOptions { count, center, half, ref species, .. } = self.options;
-        let variation = species.variation;
         self.flock = Flock::new(self.flock.parameters.clone(), growth.moment.seed)?;
-        let (length, cruise) = (self.body_length(), self.flock.parameters.cruise_speed);
-        let ids = growth.identities(count)?;
-        // A school that has long been together swims one way.
-        let first = ids.first().copied().unwrap_or(NOTHING);
-        let common = growth.moment.random(first, COURSE).direction();
-        for id in ids {
-            let mut random = growth.moment.random(id, BIRTH);
-            let environment = &*growth.environment;
-            let mut draw = || center + half * random.in_ball();
-            let free = |place: &Vec3| way_out(*place, length, environment) == Vec3::ZERO;
-            let drawn = (0..32).map(|_| draw()).find(free);
-            let place = drawn.unwrap_or_else(|| center + way_out(center, length, environment));
-            let heading = common + random.direction() * HEADINGS;
-            let level = heading * Vec3::new(1.0, 0.2, 1.0);
-            let velocity = level.normalize_or(Vec3::Z) * (cruise * length);
-            self.flock.push(id, place, velocity)?;
-            self.fishes.push(Fish::born(variation, velocity, &mut random));
+        self.join(self.options.count, growth)
+    }
+
+    fn obey(&mut self, order: &Order, growth: &mut Growth) -> Result<()> {
+        match *order {
+            Order::Number(count) => {
+                FishSchoolOptions { count, ..self.options.clone() }.check()?;
+                self.join(count.saturating_sub(self.fishes.len()), growth)?;
+                let surplus = self.flock.ids()[count..].to_vec();
+                surplus.into_iter().for_each(|id| self.let_go(id));
+                Ok(())
+            }
+            Order::Remove(id) if self.flock.ids().contains(&id) => {
+                self.let_go(id);
+                Ok(())
+            }
+            _ => Err(no_such_order(self.kind(), order)),
         }
-        Ok(())
     }
 
     fn sense(&mut self, view: &View) -> Result<()> {
@@ -320,10 +350,10 @@ impl Population for FishSchool {
     fn grow(&mut self, growth: &mut Growth) -> Result<()> {
         self.caught.clear();
         for (who, into) in bitten(growth.events) {
-            let Some(index) = self.flock.ids().iter().position(|&id| id == who) else { continue };
-            self.flock.remove(who);
-            self.fishes.remove(index);
-            self.caught.push(Gone { who, into });
+            if self.flock.ids().contains(&who) {
+                self.let_go(who);
+                self.caught.push(Gone { who, into });
+            }
         }
         Ok(())
     }
