@@ -33,6 +33,12 @@ export interface Hooks {
   readonly drives: number[] | null;
   /** Whom the person steers, 0 for nobody. */
   readonly steered: number;
+  /** Present value of a parameter; undefined where there is none. */
+  parameter(owner: string, name: string): number | undefined;
+  /** A parameter of the selected individual itself. */
+  trait(name: string): number | undefined;
+  /** A value of the inner life of the selected individual. */
+  value(name: string): unknown;
   /** All that is alive. */
   instances(): OnScreen[];
   /** Pixels of the retina that is shown, four bytes each; null if none is. */
@@ -99,6 +105,11 @@ export function exposeForTests(viewer: Viewer): void {
     get steered() {
       return viewer.workshop.steering.id;
     },
+    parameter: (owner, name) =>
+      viewer.parameters.owners.find((one) => one.name === owner)?.parameters.find((one) => one.name === name)
+        ?.value,
+    trait: (name) => inspector.latest?.traits[name],
+    value: (name) => inspector.latest?.values[name],
     instances: () => instancesOf(viewer),
     retinaPixels: () => {
       const open = viewer.panels.isOpen("view");
