@@ -41,6 +41,8 @@ export interface Hooks {
   value(name: string): unknown;
   /** All that is alive. */
   instances(): OnScreen[];
+  /** Where an individual is on the map of the layout panel, as shares of its sides; null if it is not on it. */
+  onMap(id: number): [number, number] | null;
   /** Pixels of the retina that is shown, four bytes each; null if none is. */
   retinaPixels(): number[] | null;
 }
@@ -111,6 +113,7 @@ export function exposeForTests(viewer: Viewer): void {
     trait: (name) => inspector.latest?.traits[name],
     value: (name) => inspector.latest?.values[name],
     instances: () => instancesOf(viewer),
+    onMap: (id) => viewer.workshop.layout.placeOf(id),
     retinaPixels: () => {
       const open = viewer.panels.isOpen("view");
       const pixels = (open ? viewer.workshop.view.retina : inspector.retina).pixels();

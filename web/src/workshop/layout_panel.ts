@@ -2,7 +2,7 @@ import type { Session } from "../messages/session";
 import { download, element } from "../overlays/dom";
 import type { Panel } from "../overlays/panels";
 import type { Stage } from "../scene/stage";
-import { drawMap, nearest, type Section, type Spot, sectionOf, spotsOf, toWorld } from "./map";
+import { drawMap, nearest, type Section, type Spot, sectionOf, spotsOf, toPicture, toWorld } from "./map";
 import type { Residents } from "./residents";
 import { Slider } from "./slider";
 
@@ -114,6 +114,14 @@ export class LayoutPanel implements Panel {
       : `${this.spots.length} things that can be moved`;
     if (this.note.textContent !== text) this.note.textContent = text;
     if (one) this.height.show(one.y);
+  }
+
+  /** Where an individual is on the map, as shares of its sides; null if it is not on it. */
+  placeOf(id: number): [number, number] | null {
+    const spot = this.spots.find((one) => one.id === id);
+    if (!spot || !this.section) return null;
+    const [x, y] = toPicture(spot, this.section, 1);
+    return [x, y];
   }
 
   private chosen(): Spot | undefined {

@@ -21,7 +21,7 @@ export class Workshop {
   readonly steering: Steering;
   readonly behavior: BehaviorPanel;
   readonly view: EyePanel;
-  private readonly layout: LayoutPanel;
+  readonly layout: LayoutPanel;
 
   constructor(private readonly viewer: Viewer) {
     const { session, selection, parameters, stage, panels } = viewer;
