@@ -94,7 +94,7 @@ impl Habits {
     fn switch(&mut self, name: &str) -> Option<&mut bool> {
         let number = SWITCHES.iter().position(|(known, _)| *known == name)?;
         let Self { bright, dark, cold, warm, school, female } = self;
-        Some([bright, dark, cold, warm, school, female].into_iter().nth(number)?)
+        [bright, dark, cold, warm, school, female].into_iter().nth(number)
     }
 }
 
