@@ -150,7 +150,7 @@ impl Stand {
             litter.ids.push(one.id);
             litter.transforms.push(Transform::new(place + Vec3::Y * 0.02, rotation, size));
             let shade = 0.7 + 0.6 * math::sin(turn).abs();
-            litter.tints.push([1.3 * shade, 0.62 * shade, 0.18 * shade]);
+            litter.tints.push([0.7 * shade, 0.3 * shade, 0.07 * shade]);
         }
         if !litter.ids.is_empty() {
             publication.scene.batches.push(litter);

@@ -53,12 +53,13 @@ fn step(world: &mut World, ticks: usize) {
 
 #[test]
 fn plants_in_the_open_grow_and_crowded_ones_shade_each_other() {
-    let mut open = world(sprouts(vec![[0.0, 0.0], [20.0, 0.0]]));
+    let childless = |places| StandOptions { seeds: String::new(), ..sprouts(places) };
+    let mut open = world(childless(vec![[0.0, 0.0], [20.0, 0.0]]));
     step(&mut open, 60);
     assert_eq!(numbers(&open, "segments"), [20.0, 20.0], "10 steps a second for two seconds");
     let heights = numbers(&open, "height_m");
     assert!((heights[0] - heights[1]).abs() < 1e-3 && heights[0] > 3.9, "{heights:?}");
-    let mut head_start = sprouts(vec![[0.0, 0.0], [0.05, 0.0]]);
+    let mut head_start = childless(vec![[0.0, 0.0], [0.05, 0.0]]);
     head_start.sources.push(SPROUT.replace("F(0.2)", "F(0.15)"));
     let mut crowd = world(head_start);
     step(&mut crowd, 60);
