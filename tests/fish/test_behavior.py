@@ -321,6 +321,8 @@ def test_a_pair_goes_through_all_stages_to_spawning():
                 stages.append((fish.id, act))
         if female.display.get("act") == "nuzzling":
             hovers += female.speed < 0.3 * LENGTH
+            if male.wanted["behavior"] != "mate":
+                continue  # He avoids a collision, and backs off further afterwards.
             backing = male.wanted["speed"] < 0
             touches += backing and before >= 0
             before = male.wanted["speed"]

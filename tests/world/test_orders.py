@@ -163,7 +163,7 @@ def test_a_steered_fish_does_what_it_is_told_and_goes_on_by_itself_when_released
     def turned(angle):
         before = heading()
         fish.steer(one, turn=angle, speed=1.5)
-        world.step(20)
+        world.step(8)
         return (heading() - before + np.pi) % (2 * np.pi) - np.pi
 
     hungry = world.inspect(one)["values"]["hunger"]
