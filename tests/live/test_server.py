@@ -75,7 +75,7 @@ class Page:
     async def say(self, do, **fields):
         await self.link.send(json.dumps({"do": do, **fields}))
 
-    async def until(self, wanted, seconds=20.0):
+    async def until(self, wanted, seconds=60.0):
         async with asyncio.timeout(seconds):
             while True:
                 message = msgspec.msgpack.decode(await self.link.recv())
