@@ -64,7 +64,8 @@ fn plants_in_the_open_grow_and_crowded_ones_shade_each_other() {
     let mut crowd = world(head_start);
     step(&mut crowd, 60);
     let segments = numbers(&crowd, "segments");
-    assert!(segments[0] == 20.0 && segments[1] < 10.0, "{segments:?}");
+    // The lower one waits while the leaf of the other is close above it.
+    assert!(segments[0] == 20.0 && segments[1] < 18.0, "{segments:?}");
 }
 
 #[test]
