@@ -53,7 +53,7 @@ def springs() -> Iterator[Figure]:
     if importlib.util.find_spec("mujoco") is None:
         print("fish.rollout: skipped, mujoco is not installed (pip install --group bench)")
         return
-    from mujoco_fish import Rollout
+    from peers.mujoco_fish import Rollout
 
     rollout = Rollout()
     ours, ours_rate = rollout.ours()
