@@ -15,6 +15,7 @@ from bioscope.errors import BioscopeError
 from bioscope.lsystem import Interpretation, LSystem, ModuleString, Turtle, ViewFile
 from bioscope.minds import Mind
 from bioscope.populations import (
+    Animated,
     Bubbles,
     Corals,
     Disk,
@@ -45,6 +46,7 @@ from bioscope.world import (
 from bioscope.worlds import load
 
 __all__ = [
+    "Animated",
     "Batch",
     "BioscopeError",
     "Bubbles",

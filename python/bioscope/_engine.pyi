@@ -41,20 +41,34 @@ __all__ = [
     "View",
     "ViewFile",
     "World",
+    "arc_sine",
+    "arc_tangent",
+    "cosine",
     "current",
     "derive_in",
     "encode_png",
     "environment_names",
+    "exponential",
     "fish_species",
     "fish_with_minds",
+    "hyperbolic_tangent",
     "interpret",
+    "power",
     "read_colors",
     "resident",
     "share",
+    "sine",
 ]
 
 VERSION: Final[str]
 
+def arc_sine(value: _Real) -> float: ...
+def arc_tangent(y: _Real, x: _Real) -> float: ...
+def cosine(angle: _Real) -> float: ...
+def exponential(exponent: _Real) -> float: ...
+def hyperbolic_tangent(value: _Real) -> float: ...
+def power(base: _Real, exponent: _Real) -> float: ...
+def sine(angle: _Real) -> float: ...
 def current(direction: _Numbers, **parameters: _Real) -> Field: ...
 def encode_png(pixels: _Bytes) -> bytes: ...
 def fish_with_minds(options: str, make: Callable[[], object], kinds: Sequence[str]) -> Resident: ...

@@ -68,7 +68,7 @@ prefpos_x1_x2_y1_y2 0 721 0 576   observer 0 120 250   lookatPoint 0 0 0   twist
 viewAngle 500  aspectRatio 1.25  near 1  far 10000  swapinterval 1
 nbrCalcStep_seed 4 34743   t_final_interval 60 0.04
 RepetitionParameters
-rotate 0 0 0 rotate_max 0 360 0 startp_sidel_nbr_dist -50 0 -50 100 9 5
+rotate 0 0 0 rotate_max 0 360 0 startp_sidel_nbr_dist -50 100 9 0.5
 Options
 MaxPart 64
 fConst 5 2 0 10 0 0 0 0 0
@@ -104,7 +104,7 @@ def test_all_sections_are_read():
     found = read(SCENE + rules, "fish.lm")
     assert found.camera["observer"] == [0, 120, 250]
     assert found.camera["t_final_interval"] == [60, 0.04]
-    assert found.repetition["startp_sidel_nbr_dist"] == [-50, 0, -50, 100, 9, 5]
+    assert found.repetition["startp_sidel_nbr_dist"] == [-50, 100, 9, 0.5]
     assert found.options == [
         ("MaxPart", ["64"]),
         ("fConst", ["5", "2", "0", "10", "0", "0", "0", "0", "0"]),

@@ -1,5 +1,9 @@
 """L-systems: plants as texts that rewrite themselves, and the turtle that draws them."""
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
 from bioscope.lsystem.equilibrium import Equilibrium, equilibrium
 from bioscope.lsystem.figures import Figure, Generator
 from bioscope.lsystem.lsystem import Fragment, LSystem, ModuleString
@@ -17,8 +21,12 @@ from bioscope.lsystem.turtle import (
     read_colors,
 )
 
+if TYPE_CHECKING:
+    from bioscope.lsystem.animation import Animation
+
 __all__ = [
     "AnimateFile",
+    "Animation",
     "Balls",
     "Discs",
     "Equilibrium",
@@ -37,3 +45,12 @@ __all__ = [
     "equilibrium",
     "read_colors",
 ]
+
+
+def __getattr__(name: str) -> Any:
+    """Import what few programs need when it is asked for."""
+    if name == "Animation":
+        from bioscope.lsystem.animation import Animation
+
+        return Animation
+    raise AttributeError(f"module '{__name__}' has no attribute '{name}'")

@@ -1,5 +1,6 @@
 """The engine's populations: what can live in a world."""
 
+from bioscope.populations.animated import Animated
 from bioscope.populations.drifters import Bubbles, Plankton
 from bioscope.populations.fish import FishSchool, RoamingFish
 from bioscope.populations.fishing import FishingLine
@@ -8,6 +9,7 @@ from bioscope.populations.plants import Plants
 from bioscope.populations.scenery import Corals, Ground, Pillars, Props, Rocks
 
 __all__ = [
+    "Animated",
     "Bubbles",
     "Corals",
     "Disk",

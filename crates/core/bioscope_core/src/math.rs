@@ -9,6 +9,11 @@ pub use libm::{
     powf as pow, sinf as sin, sqrtf as sqrt, tanf as tan,
 };
 
+/// The same functions in double precision.
+pub mod double {
+    pub use libm::{asin, atan2, cos, exp, pow, sin, tanh};
+}
+
 /// Linear interpolation from `a` (at `t` = 0) to `b` (at `t` = 1).
 pub fn mix(a: f32, b: f32, t: f32) -> f32 {
     a + (b - a) * t

@@ -13,6 +13,7 @@ mod fish_mind;
 mod flock;
 mod lsystem;
 mod material;
+mod mathematics;
 mod mesh;
 mod mind;
 mod png;
@@ -52,6 +53,10 @@ mod _engine {
     use super::lsystem::{LSystem, ModuleString};
     #[pymodule_export]
     use super::material::Material;
+    #[pymodule_export]
+    use super::mathematics::{
+        arc_sine, arc_tangent, cosine, exponential, hyperbolic_tangent, power, sine,
+    };
     #[pymodule_export]
     use super::mesh::Mesh;
     #[pymodule_export]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from dataclasses import dataclass, field
 from itertools import pairwise
@@ -45,26 +46,27 @@ REPETITION = {
     "scale_max": 1,
     "time_scale": 1,
     "time_const": 1,
-    "startp_sidel_nbr_dist": 6,
+    "startp_sidel_nbr_dist": 4,
 }
-OPTIONS = (
-    "MaxPart",
-    "command_file",
-    "fConst",
-    "VLNETdeclare",
-    "AUDIOport_host",
-    "NBR_actors",
-    "iVisionWinSize",
-    "iVisionWinSize_maxColors",
-    "NBR_walk_motors",
-    "actorNbr_automata",
-    "Sound_event_file",
-    "rs_file_path_name",
-    "rs_switch",
-    "NbrChannels_listOfNames",
-    "trace_actor",
-    "import_trace",
-)
+OPTIONS = {
+    "MaxPart": "i",
+    "command_file": "iwww",
+    "fConst": "iffffffff",
+    "VLNETdeclare": "*",
+    "AUDIOport_host": "iw",
+    "NBR_actors": "i",
+    "iVisionWinSize": "iii",
+    "iVisionWinSize_maxColors": "iii",
+    "NBR_walk_motors": "i",
+    "actorNbr_automata": "iii*",
+    "Sound_event_file": "w*",
+    "rs_file_path_name": "ww",
+    "rs_switch": "iiiiii",
+    "NbrChannels_listOfNames": "i*",
+    "trace_actor": "iw",
+    "import_trace": "iw",
+}
+"""By option what follows: whole numbers, numbers, words, anything."""
 LINEAR = set("abcdefghijklmnopqrsABCD")
 CURVED = set("EFGHIJKLMNOPQRS")
 END_OF_SPLINE = 1e30
@@ -78,10 +80,12 @@ class Expression:
 
     text: str
     place: str = field(compare=False)
+    words: str = field(compare=False, default="")
+    """As it is written, with its blanks: the commands of an automaton."""
 
     def __str__(self) -> str:
         """Return it as it is written."""
-        return f"({self.text})"
+        return f"({self.words or self.text})"
 
 
 @dataclass(frozen=True, slots=True)
@@ -136,6 +140,16 @@ class Definition:
     surfaces: dict[int, str] = field(default_factory=dict)
     axiom: list[Template] = field(default_factory=list)
     rules: list[Rule] = field(default_factory=list)
+
+    @property
+    def arrays(self) -> dict[int, list[float]]:
+        """The constant arrays `fConst`, eight numbers each."""
+        found = {}
+        for name, words in self.options:
+            if name == "fConst":
+                number, *values = words
+                found[int(float(number))] = [*map(float, values)]
+        return found
 
     def __str__(self) -> str:
         """Return the file, which reads back as the same definition."""
@@ -215,9 +229,20 @@ class _Reader:
         try:
             value = float(found)
         except ValueError:
-            raise self.error(f"expected {expected}, found '{found}'") from None
+            value = math.nan
+        if not math.isfinite(value):
+            raise self.error(f"expected {expected}, found '{found or 'the end'}'")
         self.at += len(found)
         return value
+
+    def whole(self, expected: str) -> int:
+        place, found = self.at, self.peek()
+        value = self.number(expected)
+        if value != int(value):
+            self.at = place
+            self.skip()
+            raise self.error(f"expected {expected}, found '{found}'")
+        return int(value)
 
     def sections(self, definition: Definition) -> None:
         for name in SECTIONS:
@@ -253,7 +278,7 @@ class _Reader:
                 self.constant(definition)
             else:
                 self.keyword("fig_sm")
-                number = int(self.number("the number of a surface"))
+                number = self.whole("the number of a surface")
                 definition.surfaces[number] = self.word("a file")
 
     def numbers(self, known: dict[str, int], into: dict[str, list[float]]) -> None:
@@ -272,8 +297,18 @@ class _Reader:
             raise self.error(f"unknown option '{name}'; known are {', '.join(OPTIONS)}")
         self.at += len(name)
         words: list[str] = []
-        while (found := self.peek()) and found not in OPTIONS and found not in SECTIONS:
-            if found == "function":
+        for kind in OPTIONS[name].removesuffix("*"):
+            self.peek()
+            begin = self.at
+            if kind == "i":
+                self.whole(f"a whole number of '{name}'")
+            elif kind == "f":
+                self.number(f"a number of '{name}'")
+            else:
+                self.word(f"a word of '{name}'")
+            words.append(self.text[begin : self.at])
+        while OPTIONS[name].endswith("*") and (found := self.peek()):
+            if found in OPTIONS or found in SECTIONS or found == "function":
                 break
             words.append(self.word("a word"))
         definition.options.append((name, words))
@@ -281,8 +316,8 @@ class _Reader:
     def spline(self, definition: Definition) -> None:
         self.keyword("function")
         self.keyword("time_spline")
-        number = int(self.number("the number of a spline"))
-        count = int(self.number("how many pairs it has"))
+        number = self.whole("the number of a spline")
+        count = self.whole("how many pairs it has")
         scales = self.number("a scale of arguments"), self.number("a scale of values")
         keys: list[tuple[float, float]] = []
         while (argument := self.number("an argument")) != END_OF_SPLINE:
@@ -321,7 +356,7 @@ class _Reader:
         if "(" in inner:
             raise self.error("an expression in parentheses that are not closed")
         self.at = end + 1
-        return Expression("".join(inner.split()), place)
+        return Expression("".join(inner.split()), place, inner.strip())
 
     def template(self) -> Template:
         self.skip()

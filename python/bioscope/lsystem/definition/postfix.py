@@ -8,9 +8,14 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
+from itertools import pairwise
+from typing import TYPE_CHECKING
 
 from bioscope.errors import FormatError
 from bioscope.lsystem.definition.grammar import CURVED, LINEAR, Definition, Expression
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
 
 TOKEN = re.compile(r"\d+\.?\d*|\.\d+|\?\d\d|.")
 UNARY = {
@@ -112,7 +117,7 @@ def _operand(token: str, expression: Expression, around: Surroundings) -> str:
         return f"({around.growth[int(token[1:]) - 41]})"
     raise FormatError(
         f"{expression.place}: '{token}' in '({expression.text})' belongs to actors, particles, "
-        "senses or memories, which a plant has not"
+        "senses or memories, which a plant has not; bioscope.lsystem.Animation has them"
     )
 
 
@@ -130,38 +135,69 @@ def _constant(name: str, values: list[float]) -> str:
 def _function(token: str, argument: str, expression: Expression, around: Surroundings) -> str:
     if token == "?03":
         return _spline(3, argument, expression, around.definition)
-    arrays = [words for name, words in around.definition.options if name == "fConst"]
-    for words in arrays:
-        if words and words[0] == str(HERMITE) and len(words) >= 5:
-            grown, low, high, offset = (float(one) for one in words[1:5])
-            return _hermite(f"({argument} + ({offset:.17g}))", grown, low, high)
-    raise FormatError(f"{expression.place}: '{token}' needs the constants 'fConst {HERMITE}'")
+    array = around.definition.arrays.get(HERMITE)
+    if array is None:
+        raise FormatError(f"{expression.place}: '{token}' needs the constants 'fConst {HERMITE}'")
+    grown, low, high, offset = array[:4]
+    return _hermite(f"({argument} + ({offset:.17g}))", grown, low, high)
 
 
 def _hermite(argument: str, grown: float, low: float, high: float) -> str:
     """Rise smoothly from `low` at 0 to `high` at `grown` (section 3.10)."""
-    share = f"(min(1, max(0, {argument} / {grown:.17g})))"
+    share = f"(min(1, max(0, {argument} / {grown:.17g})))" if grown else f"({argument} > 0)"
     rise = high - low
     return f"({low:.17g} + ({rise:.17g}) * {share} * {share} * (3 - 2 * {share}))"
 
 
+def hermite(argument: float, grown: float, low: float, high: float) -> float:
+    """Rise smoothly from `low` at 0 to `high` at `grown` (section 3.10)."""
+    share = min(1.0, max(0.0, argument / grown)) if grown else float(argument > 0)
+    return low + (high - low) * share * share * (3 - 2 * share)
+
+
+def hermite_array(definition: Definition) -> Callable[[float], float]:
+    """Return `?29`: the rise that constant array 5 describes."""
+    grown, low, high, offset = definition.arrays[HERMITE][:4]
+    return lambda argument: hermite(argument + offset, grown, low, high)
+
+
+@dataclass(frozen=True, slots=True)
+class Pieces:
+    """A spline: cubics between its keys, constant outside."""
+
+    start: float
+    """Where it begins."""
+    before: float
+    """Its value until there."""
+    after: float
+    """Its value after its last key."""
+    pieces: list[tuple[float, float, float, tuple[float, float, float, float]]]
+    """Begin, end and width, and the coefficients of the powers 0 to 3 of the share of the way."""
+
+
+def spline_pieces(keys: list[tuple[float, float]]) -> Pieces:
+    """Return the spline through all keys with one slope at each (Catmull-Rom)."""
+    pieces = []
+    if len(keys) > 1:
+        ends = range(1, len(keys) - 1)
+        chords = [(0, 1), *((at - 1, at + 1) for at in ends), (-2, -1)]
+        slopes = [(keys[b][1] - keys[a][1]) / (keys[b][0] - keys[a][0]) for a, b in chords]
+        for at, ((start, low), (end, high)) in enumerate(pairwise(keys)):
+            width = end - start
+            a, b = slopes[at] * width, slopes[at + 1] * width
+            cubic, square = 2 * (low - high) + a + b, 3 * (high - low) - 2 * a - b
+            pieces.append((start, end, width, (low, a, square, cubic)))
+    return Pieces(keys[0][0], keys[0][1], keys[-1][1], pieces)
+
+
 def _spline(number: int, argument: str, expression: Expression, definition: Definition) -> str:
-    """Go through all keys with one slope at each (Catmull-Rom); constant outside."""
     keys = definition.splines.get(number)
     if not keys:
         raise FormatError(f"{expression.place}: spline {number} is not declared")
-    if len(keys) == 1:
-        return f"({keys[0][1]:.17g})"
-    ends = range(1, len(keys) - 1)
-    chords = [(0, 1), *((at - 1, at + 1) for at in ends), (-2, -1)]
-    slopes = [(keys[b][1] - keys[a][1]) / (keys[b][0] - keys[a][0]) for a, b in chords]
-    pieces = f"({keys[-1][1]:.17g})"
-    for at in reversed(range(len(keys) - 1)):
-        (start, low), (end, high) = keys[at], keys[at + 1]
-        width = end - start
-        a, b = slopes[at] * width, slopes[at + 1] * width
-        cubic, square = 2 * (low - high) + a + b, 3 * (high - low) - 2 * a - b
+    spline = spline_pieces(keys)
+    text = f"({spline.after:.17g})"
+    for start, end, width, (low, linear, square, cubic) in reversed(spline.pieces):
         way = f"(({argument} - ({start:.17g})) / {width:.17g})"
-        value = f"((({cubic:.17g}) * {way} + ({square:.17g})) * {way} + ({a:.17g})) * {way}"
-        pieces = f"({argument} < {end:.17g} ? ({low:.17g}) + {value} : {pieces})"
-    return f"({argument} < {keys[0][0]:.17g} ? ({keys[0][1]:.17g}) : {pieces})"
+        value = f"((({cubic:.17g}) * {way} + ({square:.17g})) * {way} + ({linear:.17g})) * {way}"
+        text = f"({argument} < {end:.17g} ? ({low:.17g}) + {value} : {text})"
+    return f"({argument} < {spline.start:.17g} ? ({spline.before:.17g}) : {text})"

@@ -63,7 +63,9 @@ class _Translation:
         steps = round(end / step) if step > 0 else 0
         lines = [f"timed: {step:.17g}", f"derivation length: {steps}"]
         names = [name for symbol in self.modules for name in self.names(symbol)]
-        lines.append("modules: " + ", ".join(f"{name}(x,y,z)" for name in names))
+        # A model has at least one production; a definition that only stands there has none.
+        declared = [*(f"{name}(x,y,z)" for name in names), "nothing"]
+        lines.append("modules: " + ", ".join(declared))
         ignored = [name for symbol in IGNORED for name in self.names(symbol)]
         if ignored:
             lines.append("ignore: " + " ".join(ignored))
@@ -76,6 +78,8 @@ class _Translation:
                 lines.append(f"growth: {_name(symbol, number)} = {shown}")
         for rule in self.definition.rules:
             lines += self.productions(rule)
+        if not self.definition.rules:
+            lines.append("nothing --> nothing")
         lines += self.homomorphism()
         return "\n".join(lines) + "\n"
 

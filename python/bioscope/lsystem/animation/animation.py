@@ -1,0 +1,467 @@
+"""Definition files as they run: one shared world, frame by frame (thesis, section 2.1.1)."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from bioscope.errors import FormatError, LimitError, UnknownNameError
+from bioscope.files import written_whole
+from bioscope.lsystem.animation.automata import Actor, read_behavior
+from bioscope.lsystem.animation.derivation import Crew, Derivation
+from bioscope.lsystem.animation.directives import scene
+from bioscope.lsystem.animation.files import (
+    CHANNELS,
+    Channel,
+    Trajectory,
+    located,
+    plain,
+    read_surface,
+    record,
+    surface_text,
+)
+from bioscope.lsystem.animation.frame import Frame
+from bioscope.lsystem.animation.functions import SENSES
+from bioscope.lsystem.animation.machine import Compiler
+from bioscope.lsystem.animation.particles import advance
+from bioscope.lsystem.animation.placement import placements
+from bioscope.lsystem.animation.sounds import Air
+from bioscope.lsystem.animation.vectors import ZERO, Pose, Vector, add, length, times, unit
+from bioscope.lsystem.animation.viewing import VOICE, Camera, Device, Light
+from bioscope.lsystem.animation.walk import TABLE, Walk, touched
+from bioscope.lsystem.definition.grammar import read
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping, Sequence
+    from os import PathLike
+
+    from bioscope.lsystem.animation.derivation import Instance
+    from bioscope.lsystem.animation.particles import Particle
+    from bioscope.lsystem.animation.shapes import Shape
+
+INTERVAL = 0.04
+"""Seconds of a frame if the file says nothing."""
+PARTS, SEED = 4, 34743
+"""Parts of a frame for particles, and the seed, if the file says nothing."""
+MOST_PARTICLES = 1000
+MOST_ACTORS = 64
+MOST_PARTS = 1000
+MOST_REMARKS = 1000
+LED = 5
+"""First parameter of a `C` that an actor leads."""
+
+
+class Source(NamedTuple):
+    """A definition file."""
+
+    text: str
+    file: str = "<text>.lm"
+    """What errors call it."""
+    folder: Path | None = None
+    """Where the files are that it names; none forbids them."""
+
+
+class Animation:
+    """A world of behavioral L-systems.
+
+    H. Noser, "A Behavioral Animation System Based on L-systems and Synthetic Sensors for Actors",
+    EPFL thesis 1609 (1997). Frame 0 shows the axioms at time 0; every `advance` lets all strings
+    grow older, moves the particles and draws anew.
+
+    Parameters
+    ----------
+    *sources
+        Definitions; all share time, particles, sounds, actors and memories, and the first says how
+        long a frame is and where the camera stands.
+    seed
+        Of everything that is chance; the first definition's if not given.
+    senses
+        What an actor's eyes and automata answer, by name: functions of the number of the actor.
+        Names are `distance` (`?30`), `obstacle`, `looks_at_goal`, `near_goal`, `automaton` (`?35`;
+        the active one of the actor's stack, if not given), `interest`, `color_of_interest`,
+        `color_of_interest_as_goal` and `at_goal`.
+    scripts
+        What `E` and the command files 0 and 1 run: it is called with the words of the command,
+        the script first. Nothing is ever run without it.
+    sounds
+        Seconds by number of sound.
+
+    Raises
+    ------
+    FormatError
+        With file, line and column, if a definition or a file that it names is wrong, or it asks
+        for a sense that is not given.
+    UnknownNameError
+        For a sense that nothing asks.
+
+    Examples
+    --------
+    >>> import bioscope as bio
+    >>> animation = bio.lsystem.Animation.read("fish.lm")  # doctest: +SKIP
+    >>> animation.run(seconds=10)  # doctest: +SKIP
+    """
+
+    def __init__(
+        self,
+        *sources: Source | str,
+        seed: int | None = None,
+        senses: Mapping[str, Callable[[int], float]] | None = None,
+        scripts: Callable[[list[str]], None] | None = None,
+        sounds: Mapping[int, float] | None = None,
+    ) -> None:
+        if not sources:
+            raise FormatError("an animation needs a definition")
+        given = [Source(one) if isinstance(one, str) else one for one in sources]
+        self.definitions = [read(one.text, one.file) for one in given]
+        self.senses: dict[str, Callable[[int], float]] = {
+            "automaton": self._automaton,
+            **(senses or {}),
+        }
+        if unknown := set(self.senses) - set(SENSES.values()):
+            raise UnknownNameError(
+                f"unknown senses {', '.join(sorted(unknown))}; known: {', '.join(SENSES.values())}"
+            )
+        self._scripts = scripts
+        self.remarks: list[str] = []
+        """What was tolerated but is doubtful."""
+        first = self.definitions[0].camera
+        parts, chance = first.get("nbrCalcStep_seed", [PARTS, SEED])
+        self.seed = int(chance) if seed is None else seed
+        self._parts = int(min(max(parts, 1), MOST_PARTS))
+        end, interval = first.get("t_final_interval", [0.0, INTERVAL])
+        if interval <= 0:
+            raise FormatError(f"{self.definitions[0].file}: a frame lasts longer than 0 seconds")
+        self.end = end
+        """Seconds after which the first definition ends; 0 if it does not."""
+        self.interval = interval
+        """Seconds of a frame."""
+        self.camera = Camera.of(self.definitions[0])
+        """The camera of the user's window."""
+        self.light = Light()
+        """Light number 3."""
+        self.frame = Frame(0, 0.0)
+        """What the last frame shows."""
+        self.produced: dict[str, str] = {}
+        """Files that the last frame made, by name: scenes of the offline renderer, boxes."""
+        self.orders: list[tuple[int, int, float]] = []
+        """What the last frame orders bodies to do (`H`): actor, what, how much."""
+        self.traces: dict[int, list[str]] = {}
+        """Trajectories of the actors that are traced, as lines."""
+        self.racket, self.shape, self.generic = ZERO, 0.0, 0.0
+        self.positions: list[Vector] = [ZERO] * TABLE
+        self.states: list[Pose] = [Pose()] * TABLE
+        self.look_at = ZERO
+        self.captured: int | None = None
+        self._device = Device()
+        self._words: list[str] = []
+        self._tables(given, sounds or {})
+        self._begin()
+
+    @classmethod
+    def read(cls, *files: str | PathLike[str], **options: Any) -> Animation:
+        """Read definition files, which may name others of their folders; options as above."""
+        texts = [Path(one).read_text(encoding="utf-8", errors="replace") for one in files]
+        named = zip(texts, files, strict=True)
+        return cls(*(Source(text, str(one), Path(one).parent) for text, one in named), **options)
+
+    def _tables(self, given: Sequence[Source], sounds: Mapping[int, float]) -> None:
+        """Read the options, and the files that the definitions name."""
+        self.arrays = [one.arrays for one in self.definitions]
+        self.surfaces: list[dict[int, Shape]] = []
+        self.actors: dict[int, Actor] = {}
+        """Actors by number."""
+        self.windows: dict[int, tuple[int, int]] = {}
+        """By actor the edge of its vision window in pixels, and how many colors it tells apart."""
+        self.air = Air(sounds)
+        """What is heard."""
+        self._channels: list[Channel] = []
+        self._imported: dict[int, Trajectory] = {}
+        self._commands: dict[int, list[str]] = {}
+        self._scene: str | None = None
+        self._shown: list[tuple[int, int]] = []
+        self._most = 0
+        self._log: str | None = None
+        for number, (definition, source) in enumerate(zip(self.definitions, given, strict=True)):
+            self.arrays[number][-1] = [*definition.constants.get("P", ())]
+            place = definition.file
+            self.surfaces.append(
+                {
+                    named: read_surface(located(name, source.folder, place))
+                    for named, name in definition.surfaces.items()
+                }
+            )
+            for name, words in definition.options:
+                self._option(name, words, source.folder, place)
+
+    def _option(self, name: str, words: list[str], folder: Path | None, place: str) -> None:
+        number = int(float(words[0])) if words and name not in _NAMED_OPTIONS else 0
+        if name == "MaxPart":
+            self._most += max(0, number)
+        elif name == "command_file":
+            self._commands[number] = words[1:]
+        elif name == "NBR_actors":
+            for actor in range(number):
+                self.actor(actor)
+        elif name.startswith("iVisionWinSize"):
+            self.windows[number] = int(float(words[1])), int(float(words[2]))
+        elif name == "actorNbr_automata":
+            self.actor(number).push(read_behavior(" ".join(words[1:]), place))
+        elif name == "Sound_event_file":
+            self._log = plain(words[0])
+            self.air.declare(words[1:])
+        elif name == "rs_file_path_name":
+            self._scene = plain(words[1])
+        elif name == "rs_switch":
+            ends = [int(float(one)) for one in words]
+            self._shown = list(zip(ends[::2], ends[1::2], strict=True))
+        elif name == "NbrChannels_listOfNames":
+            if not 0 <= number <= CHANNELS or len(words) != number + 1:
+                raise FormatError(f"{place}: up to {CHANNELS} data channels, and as many names")
+            self._channels += [Channel(located(one, folder, place)) for one in words[1:]]
+        elif name == "trace_actor":
+            self.traces[number] = []
+        elif name == "import_trace":
+            self._imported[number] = Trajectory(located(words[1], folder, place), number)
+
+    def _begin(self) -> None:
+        self.crew = Crew(self, self._most or MOST_PARTICLES, self._push)
+        self.layers = [
+            Derivation(one, Compiler(one, self.senses), number)
+            for number, one in enumerate(self.definitions)
+        ]
+        self._placements = [
+            placements(one, self.seed, number, self.remark)
+            for number, one in enumerate(self.definitions)
+        ]
+        self.air.tick(0.0)
+        for layer in self.layers:
+            layer.begin(self.crew)
+        self._draw()
+
+    @property
+    def time(self) -> float:
+        """Global time in seconds: how many frames were made, times their length."""
+        return self.frame.number * self.interval
+
+    @property
+    def tick(self) -> int:
+        """Number of the frame."""
+        return self.frame.number
+
+    @property
+    def particles(self) -> list[Particle]:
+        """All particles."""
+        return self.crew.particles
+
+    @property
+    def offline(self) -> bool:
+        """Whether this frame is written for the offline renderer."""
+        shown = any(low <= self.frame.number <= high for low, high in self._shown)
+        return self._scene is not None and (shown or not self._shown)
+
+    def advance(self) -> None:
+        """Make the next frame."""
+        number = self.frame.number + 1
+        self.frame = Frame(number, number * self.interval)
+        self.produced, self.orders = {}, []
+        self.crew.time = self.time
+        self.run_script(0)
+        self.air.tick(self.time)
+        for layer, definition in zip(self.layers, self.definitions, strict=True):
+            stop = definition.repetition.get("time_const", [0.0])[0]
+            if stop <= 0 or self.time <= stop:
+                scale = definition.repetition.get("time_scale", [1.0])[0]
+                layer.step(self.crew, max(0.0, scale) * self.interval)
+        held = {one.particle for layer in self.layers for one in layer.string} - {None}
+        self.crew.particles = [one for one in self.crew.particles if one in held]
+        advance(self.crew.particles, self, self.time - self.interval, self._parts)
+        self._draw()
+        self.run_script(1)
+
+    def run(self, seconds: float, folder: str | PathLike[str] | None = None) -> None:
+        """Make frames for some seconds; what they make is written to the folder, if any."""
+        for _ in range(round(seconds / self.interval)):
+            self.advance()
+            if folder is not None:
+                self.write(folder)
+
+    def write(self, folder: str | PathLike[str]) -> None:
+        """Write what the last frame made, and the sound log and trajectories so far."""
+        files = dict(self.produced)
+        if self._log is not None:
+            files[self._log] = self.sound_log
+        for definition in self.definitions:
+            for name, words in definition.options:
+                if name == "trace_actor":
+                    lines = self.traces[int(float(words[0]))]
+                    files[plain(words[1])] = "".join(f"{one}\n" for one in lines)
+        for name, text in files.items():
+            with written_whole(Path(folder) / name) as path:
+                path.write_text(text, encoding="utf-8")
+
+    def _draw(self) -> None:
+        self.captured = None
+        for layer, places in zip(self.layers, self._placements, strict=True):
+            for index, at in enumerate(places):
+                Walk(self, layer, index, at).run()
+        self._device, self._words = Device(), []
+        if self.offline:
+            name = f"{self._scene}.{self.frame.number:04d}.ray"
+            self.produced[name] = scene(self.frame, self.camera)
+
+    def string(self, layer: int = 0) -> str:
+        """Return the string of a definition: symbols with age, parameters and growth values."""
+        return " ".join(
+            f"{one.symbol}({','.join(f'{n:.9g}' for n in (one.age, *one.parameters, *one.growth))})"
+            for one in self.layers[layer].string
+        )
+
+    @property
+    def sound_log(self) -> str:
+        """All sounds, one line per frame, as a sound track is made from them."""
+        return "".join(" ".join(line) + "\n" for line in self.air.log)
+
+    def surface(self) -> str:
+        """Return all that the last frame shows as one surface file (SM)."""
+        return surface_text(*self.frame.surface())
+
+    def actor(self, number: int) -> Actor:
+        """Return an actor; a new one if nobody has this number.
+
+        Raises
+        ------
+        LimitError
+            If there are too many.
+        """
+        if number not in self.actors and len(self.actors) >= MOST_ACTORS:
+            raise LimitError(f"there are at most {MOST_ACTORS} actors")
+        return self.actors.setdefault(number, Actor())
+
+    def use_device(self, device: Device) -> None:
+        """Move the camera in the next frame, if a symbol `l` lets devices do so."""
+        self._device = device
+
+    def say(self, words: str) -> None:
+        """Speak to the world; commands move the camera, if a symbol `l` lets voices do so."""
+        self._words.append(words)
+
+    def remark(self, text: str) -> None:
+        """Keep a remark, once."""
+        if text not in self.remarks and len(self.remarks) < MOST_REMARKS:
+            self.remarks.append(text)
+
+    # What symbols and expressions ask.
+
+    def channel(self, number: float, at: float) -> float:
+        """Return the value of a data channel at a time."""
+        if 0 <= number < len(self._channels):
+            return self._channels[int(number)].at(at)
+        self.remark(f"data channel {number:g} is not declared")
+        return 0.0
+
+    def field(self, place: Vector, particles: list[Particle]) -> Vector:
+        """Return the sum of the fields of particles at a place."""
+        return touched(particles, self, place)
+
+    def touch(self, place: Vector, actor: int) -> float:
+        """Return how strong the fields are, but for that of the actor's own particle."""
+        others = [
+            one
+            for one in self.crew.particles
+            if one.owner.mode(1) != LED or round(one.owner.growth[0]) != actor
+        ]
+        return length(self.field(place, others))
+
+    def trajectory(self, number: int) -> tuple[Vector, Vector] | None:
+        """Return place and direction of an imported trajectory."""
+        found = self._imported.get(number)
+        return found.at(self.time) if found is not None else None
+
+    def run_script(self, number: int, *arguments: str) -> None:
+        """Run a command file with the number of the frame and its own two words."""
+        command = self._commands.get(number)
+        if command is not None and self._scripts is not None:
+            script, *words = command
+            self._scripts([script, str(self.frame.number), *words, *arguments])
+        elif command is None and arguments:
+            self.remark(f"command file {number} of 'E' is not declared")
+
+    def direct(self, one: Instance, walk: Walk) -> None:
+        """Let a symbol `l` direct camera, lights and microphones."""
+        camera, mode, told = self.camera, one.mode(3), one.growth
+        particle = walk.particle
+        if mode in (0, 8, 10):
+            camera.eye = told
+        elif mode == 1:
+            camera.target = told
+        elif mode == 2:
+            camera.angle, camera.aspect, camera.twist = told[0] / 10, told[1], told[2]
+        elif mode == 3:
+            self.light.position = told
+        elif mode == 4 and particle is not None:
+            camera.eye = particle.position
+        elif mode == 5 and particle is not None:
+            ahead = unit(particle.velocity)
+            if ahead is not None:
+                camera.target = add(particle.position, times(ahead, told[0]))
+        elif mode in (6, 7):
+            self._track(mode, round(told[0]))
+        elif mode == 9:
+            camera.follow(self._device)
+        elif mode == 11:
+            camera.hear([word for word in self._words if word in VOICE])
+        if mode == 10:
+            camera.target = self.look_at
+        if mode in (8, 10):
+            self.air.microphone(one.mode(2), camera.eye)
+
+    def _track(self, mode: int, number: int) -> None:
+        """Look with the eyes of an actor, or at it."""
+        actor = self.actor(number)
+        if mode == 7:
+            self.camera.target = actor.position
+            return
+        self.camera.eye = actor.position
+        self.camera.target = add(actor.position, actor.heading)
+        if number in self.traces:
+            self.traces[number].append(record(number, actor.state, self.time, actor.position))
+
+    def capture(self) -> None:
+        """Make a definition of one cube around what was drawn since the first mark."""
+        bounds = self.frame.bounds(self.captured or 0)
+        if self.captured is None or bounds is None:
+            self.remark("'D' 21 without a 'D' 20 before it, or with nothing drawn between them")
+            return
+        text = boxed(*bounds)
+        self.frame.proxies.append(text)
+        number = len(self.frame.proxies)
+        self.produced[f"box{number}.{self.frame.number:04d}.lm"] = text
+        self.captured = None
+
+    def _automaton(self, number: int) -> float:
+        active = self.actor(number).automaton
+        return float(active) if active is not None else -1.0
+
+    def _push(self, words: str, place: str) -> None:
+        if words:
+            behavior = read_behavior(words, place)
+            self.actor(behavior.actor).push(behavior)
+
+
+_NAMED_OPTIONS = frozenset(["Sound_event_file", "rs_file_path_name", "VLNETdeclare", "rs_switch"])
+
+
+def boxed(low: Vector, high: Vector) -> str:
+    """Return a definition of one cube with these corners."""
+    middle = [(a + b) / 2 for a, b in zip(low, high, strict=True)]
+    size = [b - a for a, b in zip(low, high, strict=True)]
+    start = low[0], middle[1], middle[2]
+    move = " ".join(f"({_postfix(one)})" for one in start)
+    cube = " ".join(f"({_postfix(one)})" for one in size)
+    return f"Axiom\nf () () () (2) {move}\nc () () () () {cube}\nProductions\nEndProductions\n"
+
+
+def _postfix(number: float) -> str:
+    """Return a number as an expression, which has neither sign nor exponent."""
+    text = f"{abs(number):.17f}".rstrip("0").rstrip(".")
+    return f"{text}_" if number < 0 else text
