@@ -24,6 +24,9 @@ YEAR = 31
 START = 4
 """Age of the trees in years when the measurement begins."""
 
+RATE = 10.0
+"""Growth steps per second of world time."""
+
 SECONDS = 8.0
 
 
@@ -39,7 +42,7 @@ def world(seed: int) -> bio.World:
         TREES,
         species="tree",
         habitat=bio.Habitat(area=places),
-        rate=10.0,
+        rate=RATE,
         start=START * YEAR,
         flexibility=0.05,
     )
@@ -61,6 +64,15 @@ def tick() -> Iterator[Figure]:
     yield Figure("grow.tick", 1000 * float(np.mean(times)), "ms", target=1000 / 30, note=note)
 
 
+def frames_in(message: bytes) -> list[dict]:
+    """Return the frames that a message carries, by itself or in a bundle."""
+    decoded = msgspec.msgpack.decode(message)
+    if decoded["type"] != "bundle":
+        return [decoded] if decoded["type"] == "frame" else []
+    # A frame comes last, after what it needs.
+    return frames_in(decoded["messages"][-1])
+
+
 async def watch(port: int) -> tuple[float, float, float]:
     """Watch as one page; return frames, growth steps and megabytes per second."""
     address = f"ws://127.0.0.1:{port}/stream"
@@ -70,15 +82,12 @@ async def watch(port: int) -> tuple[float, float, float]:
         while end is None or time.monotonic() < end:
             message = await link.recv()
             received += len(message)
-            # The head of a frame says its type; the rest need not be read to count it.
-            decoded = msgspec.msgpack.decode(message)
-            if decoded["type"] != "frame":
-                continue
-            await link.send(json.dumps({"do": "seen", "tick": decoded["tick"]}))
-            if end is None:
-                end, first, received = time.monotonic() + SECONDS, decoded["time"], 0
-            frames, last = frames + 1, decoded["time"]
-    return (frames - 1) / SECONDS, 10.0 * (last - first) / SECONDS, received / SECONDS / 1e6
+            for frame in frames_in(message):
+                await link.send(json.dumps({"do": "seen", "tick": frame["tick"]}))
+                if end is None:
+                    end, first, received = time.monotonic() + SECONDS, frame["time"], 0
+                frames, last = frames + 1, frame["time"]
+    return (frames - 1) / SECONDS, RATE * (last - first) / SECONDS, received / SECONDS / 1e6
 
 
 def live() -> Iterator[Figure]:
@@ -93,8 +102,9 @@ def live() -> Iterator[Figure]:
     finally:
         process.send_signal(signal.SIGINT)
         process.wait(20)
-    note = f"{steps:.1f} growth steps/s, {megabytes:.0f} MB/s"
+    note = f"{megabytes:.0f} MB/s"
     yield Figure("grow.live", frames, "frames/s", target=29.5, better="higher", note=note)
+    yield Figure("grow.live.steps", steps, "growth steps/s", target=9.8, better="higher")
 
 
 BENCHMARKS = {"grow": tick, "grow.live": live}

@@ -65,6 +65,14 @@ def free_port():
         return one.getsockname()[1]
 
 
+def messages(received):
+    """Return the messages in one that came: those of a bundle, or itself."""
+    message = msgspec.msgpack.decode(received)
+    if message["type"] != "bundle":
+        return [message]
+    return [msgspec.msgpack.decode(one) for one in message["messages"]]
+
+
 class Page:
     """A page that speaks the stream's language."""
 
@@ -78,12 +86,12 @@ class Page:
     async def until(self, wanted, seconds=60.0):
         async with asyncio.timeout(seconds):
             while True:
-                message = msgspec.msgpack.decode(await self.link.recv())
-                self.got.append(message)
-                if message["type"] == "frame":
-                    await self.say("seen", tick=message["tick"])
-                if wanted(message):
-                    return message
+                for message in messages(await self.link.recv()):
+                    self.got.append(message)
+                    if message["type"] == "frame":
+                        await self.say("seen", tick=message["tick"])
+                    if wanted(message):
+                        return message
 
     async def frame(self, wanted=lambda _: True):
         return await self.until(lambda one: one["type"] == "frame" and wanted(one))

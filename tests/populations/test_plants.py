@@ -206,7 +206,7 @@ def test_each_plant_may_have_its_own_numbers():
     assert heights[2] / heights[0] == pytest.approx(3.0, rel=0.15)
 
 
-def test_asks_for_what_makes_sense():
+def test_asks_for_what_makes_sense(tmp_path):
     with pytest.raises(bio.BioscopeError, match="give them a rate"):
         bio.Plants("light_tree", 3, season=31)
     with pytest.raises(bio.BioscopeError, match="no number 'NOTHING'"):
@@ -214,11 +214,9 @@ def test_asks_for_what_makes_sense():
     with pytest.raises(bio.BioscopeError, match="without rate"):
         bio.Plants("light_tree", 3, rate=1.0, variants=4)
 
-    class Own(bio.environments.Environment):
-        def exchange(self, step, messages):
-            return None
-
-    with pytest.raises(bio.BioscopeError, match="environments of the engine"):
-        bio.Plants("light_tree", 3, rate=1.0, environment=Own())
+    field = tmp_path / "field.e"
+    field.write_text("executable: honda81\n")
+    with pytest.raises(bio.BioscopeError, match="environment file"):
+        bio.Plants("light_tree", 3, rate=1.0, environment=bio.environments.read(field))
     with pytest.raises(bio.BioscopeError, match="season"):
         bio.Plants("light_tree", 3, rate=1.0, season=0)

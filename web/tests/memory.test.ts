@@ -24,17 +24,17 @@ function feed(recorder: Recorder, message: Record<string, unknown>): void {
 const mesh = (key: number, size = 3) => ({
   type: "mesh",
   key,
-  positions: new Uint8Array(12 * size),
-  normals: new Uint8Array(12 * size),
+  box: [0, 0, 0, 1, 1, 1],
+  positions: new Uint8Array(6 * size),
+  normals: new Uint8Array(6 * size),
+  brightest: 1,
   triangles: new Uint8Array(12),
   levels: [],
 });
 const layout = (revision: number, key: number) => ({
   type: "layout",
   revision,
-  batches: [
-    { name: "x", mesh: key, material: 1, ids: new Uint8Array(4), transforms: new Uint8Array(32), count: 1 },
-  ],
+  batches: [{ key: -key, name: "x", mesh: key, material: 1 }],
   points: [],
 });
 const frame = (tick: number, revision: number, size = 0) => ({

@@ -70,6 +70,14 @@ describe("dequantization", () => {
     const to = { places: new Float32Array(24).fill(9), poses: new Float32Array() };
     carryOver(to, new Uint32Array([6, 7, 5]), from, new Uint32Array([5, 6]), 0);
     expect([to.places[0], to.places[8], to.places[16]]).toEqual([2, 9, 1]);
+    carryOver(to, new Uint32Array([5, 5, 5]), from, new Uint32Array([5, 5]), 0);
+    expect([to.places[0], to.places[8], to.places[16]]).toEqual([1, 2, 1]);
+  });
+
+  it("takes sizes as frames give them", () => {
+    const places = new Float32Array(16);
+    placeAsMoved(places, { size: [1, 3], scales: new Uint16Array([0, 65535]) });
+    expect([places[3], places[11]]).toEqual([1, 3]);
   });
 });
 

@@ -9,12 +9,13 @@ all of them and answers by changing their numbers.
 'F(1)F(1)A?E(1)'
 """
 
-from bioscope.environments.environment import Environment, derive, names, read
+from bioscope.environments.environment import Environment, derive, names, read, rebuild
 from bioscope.environments.kinds import (
     Collision,
     Community,
     Field,
     LeafBalls,
+    Limbs,
     Neighborhood,
     Obstacles,
     PatchLight,
@@ -32,6 +33,7 @@ __all__ = [
     "Environment",
     "Field",
     "LeafBalls",
+    "Limbs",
     "Neighborhood",
     "Obstacles",
     "PatchLight",
@@ -44,4 +46,5 @@ __all__ = [
     "derive",
     "names",
     "read",
+    "rebuild",
 ]

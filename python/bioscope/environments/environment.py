@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
 from bioscope import _engine
-from bioscope.errors import InvalidValueError
+from bioscope.errors import InvalidValueError, UnknownNameError
 from bioscope.lsystem.lsystem import LSystem, ModuleString
+from bioscope.world import state
 
 if TYPE_CHECKING:
     from os import PathLike
@@ -18,8 +19,14 @@ if TYPE_CHECKING:
     from bioscope.lsystem.turtle import ViewFile
 
 
+_kinds: dict[str, type[Environment]] = {}
+
+
 class Environment:
     r"""What surrounds a plant; write your own by deriving from it and defining `exchange`.
+
+    Of an environment of growing plants in a world, attributes that are plain data are its memory:
+    saved and hashed with the world. Name what shall not be in `transient`.
 
     Examples
     --------
@@ -37,6 +44,16 @@ class Environment:
     """What the engine makes it from, where it is one of the engine's: name, settings, map."""
     fields: tuple[str, ...] | None = None
     """Which parts of the messages are sent, so that no more is told than needed; None is all."""
+    kind: ClassVar[str]
+    """Word under which saved worlds find the class: its name, if you say nothing else."""
+    transient: ClassVar[tuple[str, ...]] = ()
+    """Names of attributes that are not saved."""
+
+    def __init_subclass__(cls, **keywords: Any) -> None:
+        super().__init_subclass__(**keywords)
+        if "kind" not in cls.__dict__:
+            cls.kind = cls.__name__
+        _kinds[cls.kind] = cls
 
     def exchange(self, step: int, messages: dict[str, NDArray[Any]]) -> NDArray[np.float32] | None:
         """Answer the messages of one string, in its order.
@@ -60,18 +77,16 @@ class Environment:
         raise NotImplementedError(f"{type(self).__name__} does not define exchange")
 
     def asked(self) -> dict[str, Any]:
-        """Return what a growing stand in a world makes its own one from.
+        """Return what a growing stand in a world makes its own one from, or knows this one by."""
+        return self._asked or {"name": self.kind, "foreign": True}
 
-        Raises
-        ------
-        InvalidValueError
-            If it is not one of the engine's, which alone can be saved with a world.
-        """
-        if self._asked is None:
-            raise InvalidValueError(
-                f"{type(self).__name__}: plants of a world live in environments of the engine"
-            )
-        return self._asked
+    def _save(self) -> bytes:
+        left_out = {"_inner", *self.transient}
+        own = {name: value for name, value in vars(self).items() if name not in left_out}
+        return state.to_bytes(type(self).__name__, own)
+
+    def _restore(self, data: bytes) -> None:
+        vars(self).update(state.from_bytes(type(self).__name__, data))
 
     @property
     def engine(self) -> _engine.Environment:
@@ -137,6 +152,12 @@ class _Read(Environment):
     def __init__(self, path: str | PathLike[str]) -> None:
         self._inner = _engine.Environment.read(path)
 
+    def asked(self) -> dict[str, Any]:
+        raise InvalidValueError(
+            "an environment file: a saved world would need it again; plants of a world live in "
+            "environments of the engine, in your own and at the end of pipes"
+        )
+
 
 def read(path: str | PathLike[str]) -> Environment:
     """Return the environment of an environment file (.e) and the specification beside it.
@@ -154,6 +175,17 @@ def read(path: str | PathLike[str]) -> Environment:
 def names() -> list[str]:
     """Return the names of the environments and field programs that are built in."""
     return _engine.environment_names()
+
+
+def rebuild(kind: str) -> Environment:
+    """Bring back an environment of a saved world, without calling `__init__`."""
+    try:
+        cls = _kinds[kind]
+    except KeyError:
+        raise UnknownNameError(
+            f"unknown environment '{kind}': import the module that defines it first"
+        ) from None
+    return cls.__new__(cls)
 
 
 def derive(

@@ -3,17 +3,20 @@
 from __future__ import annotations
 
 import shlex
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from bioscope import _engine
 from bioscope.environments.environment import BuiltIn, Environment
+from bioscope.errors import BioscopeError
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from numpy.typing import ArrayLike
+    from numpy.typing import ArrayLike, NDArray
+
+    from bioscope.lsystem.turtle import Segments
 
 
 class SkyLight(BuiltIn):
@@ -184,6 +187,37 @@ class Obstacles(BuiltIn):
         super().__init__("obstacles", dict(shapes))
 
 
+class Limbs(BuiltIn):
+    """Wood that a climber creeps along: `?E(l,yaw,pitch,roll,crowd)`.
+
+    The answers turn a piece of length l along the surface, `+(yaw)&(pitch)/(roll)`, and tell how
+    many pieces have begun near here before, so that a climber keeps off where it has been.
+
+    Měch & Prusinkiewicz, SIGGRAPH 1996, section 8, figure 13.
+
+    Parameters
+    ----------
+    segments
+        What it climbs: `start`, `end` (n, 3) and `radii` (n, 2), as `bio.Turtle().interpret(tree)`
+        gives them.
+    stem
+        From the surface to the middle of the climber's stem.
+    reach
+        Within which pieces crowd.
+    up
+        How much it looks upward, 0 not at all, 1 as much as ahead.
+    """
+
+    def __init__(
+        self, segments: Segments, *, stem: float = 0.01, reach: float = 0.15, up: float = 0.35
+    ) -> None:
+        rows = np.concatenate([segments.start, segments.end, segments.radii], axis=1)
+        entries = [("limb", _numbers(row)) for row in np.asarray(rows, np.float32)]
+        own = {"stem": stem, "reach": reach, "up": up}
+        entries += [(name, repr(float(value))) for name, value in own.items()]
+        self._make("limbs", entries)
+
+
 class Pruning(BuiltIn):
     """A shape that plants are cut to: `?E(x)` gets 1 outside and 0 inside.
 
@@ -216,15 +250,26 @@ class Pipe(Environment):
     seconds
         How long an answer may take.
 
+    Around growing plants of a world it goes on when the world goes back to an earlier tick, and a
+    world that was saved does not start it again: nothing in a saved world is ever run.
+
     Raises
     ------
     FormatError
-        If it cannot be started. If it ends, babbles or is too slow later, the derivation raises it.
+        If it cannot be started. If it ends, babbles or is too slow later, the derivation raises it,
+        and so does the step of a world, which is then at its last complete tick.
     """
 
     def __init__(self, command: str | Sequence[str], seconds: float = 10.0) -> None:
         words = shlex.split(command) if isinstance(command, str) else list(command)
         self._inner = _engine.Environment.pipe(words, seconds)
+
+    def exchange(self, step: int, messages: dict[str, NDArray[Any]]) -> None:
+        """Say that it is gone: the world was saved, and nothing in a saved world is ever run."""
+        raise BioscopeError(
+            "the program that surrounded these plants does not come back with a saved world; "
+            "with rate = 0 they live on as they are"
+        )
 
 
 def _numbers(value: object) -> str:

@@ -225,3 +225,8 @@ def decode(text: str | bytes) -> AnyCommand:
 def encode(type_: str, **fields: object) -> bytes:
     """Return a message from the world."""
     return msgspec.msgpack.encode({"type": type_, **fields})
+
+
+def bundle(messages: list[bytes]) -> bytes:
+    """Return several messages as one, which costs less to carry."""
+    return messages[0] if len(messages) == 1 else encode("bundle", messages=messages)

@@ -19,7 +19,7 @@ from bioscope.live.door import (
 )
 from bioscope.live.feed import Feed
 from bioscope.live.inspection import inspection
-from bioscope.live.messages import encode
+from bioscope.live.messages import bundle, encode
 from bioscope.live.session import Session
 
 if TYPE_CHECKING:
@@ -200,8 +200,9 @@ class Live:
             client.wake.clear()
             while not client.messages.empty():
                 await client.socket.send_bytes(client.messages.get_nowait())
-            for message in client.feed.due(self.session.snapshot):
-                await client.socket.send_bytes(message)
+            due = client.feed.due(self.session.snapshot)
+            if due:
+                await client.socket.send_bytes(bundle(due))
 
     async def _inspect(self, client: Client) -> None:
         loop = asyncio.get_running_loop()

@@ -248,13 +248,18 @@ class Session:
         self.snapshot = Snapshot(
             revision=revision,
             layout=layout or old.layout,
-            assets=dict(self._encoder.assets()) if layout else old.assets,
+            assets=self._assets(old.assets) if layout else old.assets,
             frame=frame,
             annotated=annotated,
             tick=scene.tick,
             number=old.number + 1,
         )
         self._publish(None)
+
+    def _assets(self, known: dict[int, bytes]) -> dict[int, bytes]:
+        """Return the messages of everything that the present layout uses, by key."""
+        keys = self._encoder.keys()
+        return {key: known.get(key) or self._encoder.asset(key) or b"" for key in keys}
 
     def _tell_events(self) -> None:
         """Send events that were not sent before (a replayed past brings none)."""

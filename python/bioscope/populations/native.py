@@ -18,10 +18,12 @@ class Asked(Native):
         kind: str,
         options: dict[str, Any],
         parameters: dict[str, float],
+        *,
+        environment: _engine.Environment | None = None,
         **always: Any,
     ) -> None:
         text = asked_text(options, **always)
-        super().__init__(_engine.resident(kind, text, parameters))
+        super().__init__(_engine.resident(kind, text, parameters, environment))
 
 
 def asked_text(options: dict[str, Any], **always: Any) -> str:

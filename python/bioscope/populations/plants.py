@@ -63,8 +63,8 @@ class Plants(Asked):
     rate
         Growth steps per second; the plants grow while the world runs.
     environment
-        What surrounds growing plants: one of `bioscope.environments`; what the model asks for if
-        not given.
+        What surrounds growing plants: one of `bioscope.environments`, your own or a `Pipe` among
+        them; what the model asks for if not given.
     start
         Steps that they have grown before the world begins.
     numbers
@@ -178,7 +178,9 @@ class Plants(Asked):
                 "variants and pairs of sizes: for plants without rate; growing ones differ anyway"
             )
         options |= growing | {"size": size, "sources": _with_numbers(name, text, numbers or {})}
-        super().__init__("stand", options, parameters | {"rate": rate})
+        asked = options["environment"] or {}
+        foreign = environment.engine if environment and asked.get("foreign") else None
+        super().__init__("stand", options, parameters | {"rate": rate}, environment=foreign)
 
 
 def _read(model: str | Path, colors: str | Path | None) -> tuple[str, str, str | None]:

@@ -171,6 +171,7 @@ const RULES: { [K in Message["type"]]?: (recorder: Recorder, message: Of<K>, byt
       bytes,
       material.texture === null ? [] : [material.texture],
     ),
+  batch: (recorder, batch, bytes) => recorder.keepAsset(`batch:${batch.key}`, bytes, []),
   layout: (recorder, layout, bytes) => recorder.keepLayout(layout, bytes),
   frame: (recorder, frame, bytes) => recorder.keepFrame(frame.tick, frame.time, frame.layout, bytes),
   parameters: (recorder, _message, bytes) => recorder.keepParameters(bytes),

@@ -1,6 +1,6 @@
 import type { Command } from "./commands";
 import type { LinkState, Listener, Transport } from "./transport";
-import type { Hello, Message } from "./types";
+import type { BatchLayout, Hello, Layout, Message } from "./types";
 
 type Kind = Message["type"];
 type Of<K extends Kind> = Extract<Message, { type: K }>;
@@ -16,6 +16,7 @@ export class Session implements Listener {
   failed: (error: Error) => void = () => {};
   private readonly handlers = new Map<Kind, Handler[]>();
   private readonly everything: Handler[] = [];
+  private batches = new Map<number, BatchLayout>();
 
   constructor(readonly transport: Transport) {
     this.on("hello", (hello) => {
@@ -46,13 +47,31 @@ export class Session implements Listener {
   }
 
   message(message: Message, bytes: Uint8Array): void {
+    if (message.type === "batch") this.batches.set(message.key, message);
+    else if (message.type === "layout") this.gather(message);
     for (const handler of this.everything) handler(message, bytes);
     for (const handler of this.handlers.get(message.type) ?? []) handler(message, bytes);
   }
 
+  /** Puts the batches that a layout means in the place of their keys. */
+  private gather(layout: Layout): void {
+    const keys = layout.batches as unknown as number[];
+    layout.batches = keys.map((key) => {
+      const batch = this.batches.get(key);
+      if (!batch) throw new Error("a batch of the layout is missing");
+      return batch;
+    });
+    // A recording goes back to earlier layouts; a world sends again what comes back.
+    if (this.transport.kind === "recording") return;
+    this.batches = new Map(keys.map((key, at) => [key, layout.batches[at]]));
+  }
+
   link(state: LinkState): void {
     this.state = state;
-    if (state.state === "connecting") this.hello = null;
+    if (state.state === "connecting") {
+      this.hello = null;
+      this.batches.clear();
+    }
     this.linked(state);
   }
 

@@ -1,5 +1,5 @@
 import type { Command } from "./commands";
-import { decodeMessage } from "./decode";
+import { decodeMessage, unpack } from "./decode";
 import type { Listener, Transport } from "./transport";
 import { VERSION } from "./types";
 
@@ -90,8 +90,10 @@ export class Socket implements Transport {
     this.attempt = 0;
     const bytes = new Uint8Array(data);
     try {
-      const message = decodeMessage(bytes);
-      if (message) this.listener?.message(message, bytes);
+      for (const part of unpack(bytes)) {
+        const message = decodeMessage(part);
+        if (message) this.listener?.message(message, part);
+      }
     } catch (error) {
       this.listener?.unreadable(error as Error);
     }

@@ -89,7 +89,15 @@ export interface MaterialMessage {
   two_sided: boolean;
 }
 
+/** A batch as the stream describes it; layouts refer to it by its key. */
+export interface BatchMessage extends BatchLayout {
+  type: "batch";
+  key: number;
+}
+
 export interface BatchLayout {
+  /** By which the world's layouts mean it; absent in layouts that this page has made. */
+  key?: number;
   name: string;
   species: string;
   mesh: number;
@@ -149,6 +157,10 @@ export interface Moving {
   box?: Box;
   positions?: Uint16Array;
   rotations?: Int16Array;
+  /** Least and greatest scale. */
+  size?: [number, number];
+  /** 0 to 65535 from the least to the greatest. */
+  scales?: Uint16Array;
   extent?: number;
   poses?: Int16Array;
 }
@@ -307,6 +319,7 @@ export type Message =
   | MeshMessage
   | TextureMessage
   | MaterialMessage
+  | BatchMessage
   | Layout
   | Frame
   | ParametersMessage

@@ -10,6 +10,7 @@ export interface Links {
 export function usedAssets(layout: Layout, links: Links): Set<string> {
   const used = new Set<string>();
   for (const batch of layout.batches) {
+    if (batch.key !== undefined) used.add(`batch:${batch.key}`);
     addMesh(used, batch.mesh, links);
     used.add(`material:${batch.material}`);
     const texture = links.materialTexture(batch.material);

@@ -19,15 +19,22 @@ export function poseAtRest(poses: Float32Array): void {
   for (let i = 7; i < poses.length; i += 8) poses[i] = 1;
 }
 
-/** Writes positions and rotations that a frame says have changed over places as laid out. */
+/** Writes positions, rotations and scales that a frame says have changed over places as laid out. */
 export function placeAsMoved(places: Float32Array, moving: Moving): void {
   if (moving.positions && moving.box) placePositions(places, moving.positions, moving.box);
+  if (moving.scales && moving.size) placeScales(places, moving.scales, moving.size);
   const { rotations } = moving;
   if (!rotations) return;
   const count = Math.min(places.length / 8, rotations.length / 4);
   for (let i = 0; i < count; i++) {
     for (let k = 0; k < 4; k++) places[8 * i + 4 + k] = rotations[4 * i + k] / 32767;
   }
+}
+
+function placeScales(places: Float32Array, scales: Uint16Array, [least, greatest]: [number, number]): void {
+  const count = Math.min(places.length / 8, scales.length);
+  const step = (greatest - least) / 65535;
+  for (let i = 0; i < count; i++) places[8 * i + 3] = least + scales[i] * step;
 }
 
 function placePositions(places: Float32Array, positions: Uint16Array, box: Box): void {
@@ -83,17 +90,28 @@ export function carryOver(
   fromIds: Uint32Array,
   joints: number,
 ): void {
-  const slots = new Map<number, number>();
-  fromIds.forEach((id, slot) => {
-    slots.set(id, slot);
-  });
+  const slots = slotsOf(fromIds);
+  const used = new Map<number, number>();
   const width = 8 * joints;
   ids.forEach((id, slot) => {
-    const old = slots.get(id);
+    // A plant has many leaves: the first stays the first, and so on.
+    const nth = used.get(id) ?? 0;
+    used.set(id, nth + 1);
+    const old = slots.get(id)?.[nth];
     if (old === undefined) return;
     to.places.set(from.places.subarray(8 * old, 8 * old + 8), 8 * slot);
     if (width > 0) to.poses.set(from.poses.subarray(width * old, width * (old + 1)), width * slot);
   });
+}
+
+function slotsOf(ids: Uint32Array): Map<number, number[]> {
+  const slots = new Map<number, number[]>();
+  ids.forEach((id, slot) => {
+    const own = slots.get(id);
+    if (own) own.push(slot);
+    else slots.set(id, [slot]);
+  });
+  return slots;
 }
 
 /** Place of one instance between two moments: x, y, z, scale and a unit quaternion, written to `target`. */

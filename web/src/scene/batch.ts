@@ -55,7 +55,7 @@ export class Batch {
   constructor(
     readonly number: number,
     public layout: BatchLayout,
-    readonly asset: MeshAsset,
+    public asset: MeshAsset,
     private readonly assets: Assets,
     private readonly shared: SharedUniforms,
   ) {
@@ -89,19 +89,29 @@ export class Batch {
     return place;
   }
 
-  /** Takes a new layout if it shows the same individuals with the same looks; else says no. */
+  /** Takes a new layout if it shows the same individuals in the same material; else says no. */
   accepts(layout: BatchLayout): boolean {
     const old = this.layout;
+    if (old === layout) return true;
     const same =
-      old.mesh === layout.mesh &&
       old.material === layout.material &&
       old.joints === layout.joints &&
       old.alive === layout.alive &&
       sameNumbers(old.ids, layout.ids) &&
       sameNumbers(old.tints, layout.tints);
-    if (!same) return false;
+    if (!same || !(old.mesh === layout.mesh || this.reshape(layout))) return false;
     if (!sameNumbers(old.transforms, layout.transforms)) this.older.still = this.newer.still = false;
     this.layout = layout;
+    return true;
+  }
+
+  /** Shows another mesh of the same kind, as a plant that has grown; says no if it is of another kind. */
+  private reshape(layout: BatchLayout): boolean {
+    const asset = this.assets.mesh(layout.mesh);
+    const kind = ({ message, attributes }: MeshAsset) => [message.levels.length, ...Object.keys(attributes)];
+    if (!asset || this.levels.length > 1 || String(kind(asset)) !== String(kind(this.asset))) return false;
+    this.asset = asset;
+    for (const level of [...this.levels, this.shadow]) level.reshape(asset);
     return true;
   }
 

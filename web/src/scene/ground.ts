@@ -8,15 +8,18 @@ export class Ground {
   private readonly heights = new Float32Array(CELLS * CELLS).fill(-Infinity);
   private origin = [0, 0];
   private spacing = [1, 1];
+  private measured: Batch | null = null;
 
   /** Measures the broadest lifeless thing. */
   measure(batches: Iterable<Batch>): void {
-    this.heights.fill(-Infinity);
     let broadest: Batch | null = null;
     for (const batch of batches) {
       if (batch.layout.alive || batch.layout.count !== 1) continue;
       if (!broadest || batch.asset.radius > broadest.asset.radius) broadest = batch;
     }
+    if (broadest === this.measured) return;
+    this.measured = broadest;
+    this.heights.fill(-Infinity);
     if (broadest && broadest.asset.radius > 3) this.take(broadest);
   }
 

@@ -29,8 +29,7 @@ export class Level {
     readonly pick: ShaderMaterial,
   ) {
     const geometry = new InstancedBufferGeometry();
-    for (const [name, attribute] of Object.entries(asset.attributes)) geometry.setAttribute(name, attribute);
-    geometry.setIndex(asset.index);
+    wear(geometry, asset);
     const add = (name: keyof typeof WIDTHS) => {
       const array = new Float32Array(capacity * WIDTHS[name]);
       const attribute = new InstancedBufferAttribute(array, WIDTHS[name]);
@@ -46,6 +45,12 @@ export class Level {
     this.mesh = new Mesh(geometry, look);
     this.mesh.frustumCulled = false;
     this.mesh.matrixAutoUpdate = false;
+  }
+
+  /** Shows another mesh from now on. */
+  reshape(asset: MeshAsset): void {
+    this.mesh.geometry.dispose(); // its storage on the graphics processor
+    wear(this.mesh.geometry, asset);
   }
 
   /** Begins a new list of instances. */
@@ -81,4 +86,9 @@ export class Level {
     this.mesh.material.dispose();
     this.pick.dispose();
   }
+}
+
+function wear(geometry: InstancedBufferGeometry, asset: MeshAsset): void {
+  for (const [name, attribute] of Object.entries(asset.attributes)) geometry.setAttribute(name, attribute);
+  geometry.setIndex(asset.index);
 }

@@ -13,6 +13,7 @@ mod cells;
 mod collision;
 mod guides;
 mod letters;
+mod limbs;
 mod patch_light;
 mod pipe;
 mod registry;
@@ -27,6 +28,7 @@ use bioscope_core::Vec3;
 pub use collision::{Collision, Competition};
 pub use guides::{Obstacles, Pole, Pruning, Shape};
 pub use letters::{Letter, Mailbox};
+pub use limbs::Limbs;
 pub use patch_light::{LightMap, PatchLight};
 pub use pipe::Pipe;
 pub use registry::{built_in, environment_names, read_environment};
@@ -124,8 +126,14 @@ pub trait Environment: Send {
 
     /// What it remembers from one exchange to the next, for saved worlds; nothing where every
     /// exchange begins anew.
-    fn memory(&self) -> Vec<u8> {
-        Vec::new()
+    fn memory(&self) -> bioscope_core::Result<Vec<u8>> {
+        Ok(Vec::new())
+    }
+
+    /// Whether it knows only who asks in this very step, as the sky does: plants that ask in other steps must be
+    /// told of again, or they throw no shade.
+    fn forgets(&self) -> bool {
+        false
     }
 
     /// Goes back to what [`memory`](Self::memory) gave.

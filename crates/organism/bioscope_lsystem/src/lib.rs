@@ -29,7 +29,7 @@ pub use derivation::{
 pub use diagnostic::{Diagnostic, Diagnostics, Place};
 pub use environment::{
     Collision, Competition, Density, DensityVoxels, Environment, EnvironmentError, Following,
-    LeafBalls, Letter, LightMap, Mailbox, Obstacles, PatchLight, Pipe, Pole, Pruning, Reply,
+    LeafBalls, Letter, LightMap, Limbs, Mailbox, Obstacles, PatchLight, Pipe, Pole, Pruning, Reply,
     Request, Settings, ShadowVoxels, Shape, SkyLight, SoilWater, built_in, environment_names,
     read_environment,
 };

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use bioscope_core::{Error, Result, Vec3};
+use bioscope_lsystem::Environment;
 use bioscope_minds::Mind;
 use bioscope_world::Population;
 use serde::Deserialize;
@@ -42,7 +43,7 @@ pub fn population(
     options: &str,
     parameters: &BTreeMap<String, f64>,
 ) -> Result<Box<dyn Population>> {
-    let mut population: Box<dyn Population> = match kind {
+    let population: Box<dyn Population> = match kind {
         "bubbles" => Box::new(Bubbles::new(read(kind, options)?)?),
         "corals" => Box::new(Corals::new(read(kind, options)?)?),
         "fish_school" => Box::new(FishSchool::new(school(&read(kind, options)?)?)?),
@@ -59,7 +60,25 @@ pub fn population(
             return Err(Error::Unknown { kind: "population", name: kind.to_owned(), known });
         }
     };
+    tuned(population, parameters)
+}
+
+/// A stand in an environment that is none of the engine's, which `options` (a JSON object) call foreign.
+pub fn stand_in(
+    environment: Box<dyn Environment>,
+    options: &str,
+    parameters: &BTreeMap<String, f64>,
+) -> Result<Box<dyn Population>> {
+    let stand = Stand::in_environment(read("stand", options)?, Some(environment))?;
+    tuned(Box::new(stand), parameters)
+}
+
+fn tuned(
+    mut population: Box<dyn Population>,
+    parameters: &BTreeMap<String, f64>,
+) -> Result<Box<dyn Population>> {
     for (name, value) in parameters {
+        let kind = population.kind().to_owned();
         let Some(known) = population.parameters_mut() else {
             return Err(Error::value(name, value, format!("no parameters; {kind} has none")));
         };

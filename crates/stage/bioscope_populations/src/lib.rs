@@ -14,6 +14,8 @@ pub mod stand;
 
 use std::sync::Arc;
 
+use bioscope_core::{Error, Result};
+use bioscope_lsystem::Environment;
 use bioscope_world::{Population, Registry};
 
 /// A registry that knows every population and field of the engine.
@@ -24,7 +26,10 @@ pub fn registry() -> Registry {
     registry.add_population("fishing_line", |bytes| boxed(fishing::FishingLine::from_saved(bytes)));
     registry.add_population("fish_school", |bytes| boxed(fish::FishSchool::from_saved(bytes)));
     registry.add_population("plants", |bytes| boxed(plants::Plants::from_saved(bytes)));
-    registry.add_population("stand", |bytes| boxed(stand::Stand::from_saved(bytes)));
+    add_stands(&mut registry, |name| {
+        let known = bioscope_lsystem::environment_names().iter().map(|&name| name.to_owned());
+        Err(Error::Unknown { kind: "environment", name: name.to_owned(), known: known.collect() })
+    });
     add_scenery(&mut registry);
     registry
 }
@@ -34,6 +39,15 @@ pub fn add_animals(registry: &mut Registry, kinds: Arc<animals::Kinds>) {
     registry.add_population("animals", move |bytes| {
         boxed(animals::Animals::from_saved(bytes, kinds.clone()))
     });
+}
+
+/// Teaches a registry to bring back a [`Stand`](stand::Stand); `revive` brings back by name an environment that is
+/// none of the engine's.
+pub fn add_stands(
+    registry: &mut Registry,
+    revive: impl Fn(&str) -> Result<Box<dyn Environment>> + Send + Sync + 'static,
+) {
+    registry.add_population("stand", move |bytes| boxed(stand::Stand::from_saved(bytes, &revive)));
 }
 
 fn add_drifters(registry: &mut Registry) {

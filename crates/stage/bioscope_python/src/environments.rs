@@ -8,10 +8,10 @@ use bioscope_core::{Error, Vec3};
 use bioscope_lsystem::{self as lsystem, EnvironmentError, Reply, Request, Settings};
 use numpy::{IntoPyArray, PyArrayMethods, PyReadonlyArray2};
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{PyBytes, PyDict};
 
 use crate::arrays::{self, Floats};
-use crate::error::to_python;
+use crate::error::{from_python, to_python};
 use crate::lsystem::{LSystem, ModuleString};
 use crate::turtle::ViewFile;
 
@@ -36,6 +36,24 @@ impl lsystem::Environment for Shared {
         let mut inner = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         inner.exchange(step, requests, replies)
     }
+
+    fn memory(&self) -> bioscope_core::Result<Vec<u8>> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).memory()
+    }
+
+    fn recall(&mut self, memory: &[u8]) -> bioscope_core::Result<()> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).recall(memory)
+    }
+}
+
+/// Brings back an environment of a saved world: one written in Python by the class registered under its name.
+pub fn revived(name: &str) -> bioscope_core::Result<Box<dyn lsystem::Environment>> {
+    let build = |py: Python<'_>| -> PyResult<Py<PyAny>> {
+        let module = py.import("bioscope.environments")?;
+        module.call_method1("rebuild", (name,)).map(Bound::unbind)
+    };
+    let environment = Python::attach(build).map_err(|error| from_python(name, "restore", error))?;
+    Ok(Box::new(Callback { environment }))
 }
 
 impl Environment {
@@ -325,5 +343,18 @@ impl lsystem::Environment for Callback {
             let outcome = self.call(py, step, requests, replies);
             outcome.map_err(|error| EnvironmentError::Gone { name, reason: error.to_string() })
         })
+    }
+
+    fn memory(&self) -> bioscope_core::Result<Vec<u8>> {
+        let save = |py: Python<'_>| self.environment.bind(py).call_method0("_save")?.extract();
+        Python::attach(save).map_err(|error| from_python("environment", "save", error))
+    }
+
+    fn recall(&mut self, memory: &[u8]) -> bioscope_core::Result<()> {
+        let restore = |py: Python<'_>| {
+            let memory = PyBytes::new(py, memory);
+            self.environment.bind(py).call_method1("_restore", (memory,)).map(drop)
+        };
+        Python::attach(restore).map_err(|error| from_python("environment", "restore", error))
     }
 }

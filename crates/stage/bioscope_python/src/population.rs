@@ -2,11 +2,13 @@ use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
 
 use bioscope_core::{Error, Id, Parameter, Parameters, Result};
+use bioscope_populations::catalog;
 use bioscope_world::{Growth, Inspection, Population};
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 
+use crate::environments::Environment;
 use crate::error::from_python;
 use crate::publication::Publication;
 use crate::values;
@@ -18,15 +20,21 @@ pub struct Resident {
     population: Mutex<Option<Box<dyn Population>>>,
 }
 
-/// A population of this kind with these options (a JSON object) and parameters.
+/// A population of this kind with these options (a JSON object) and parameters; a stand may be given an environment.
 #[pyfunction]
+#[pyo3(signature = (kind, options, parameters, environment=None))]
 pub fn resident(
     py: Python<'_>,
     kind: &str,
     options: &str,
     parameters: BTreeMap<String, f64>,
+    environment: Option<&Environment>,
 ) -> PyResult<Resident> {
-    let build = || bioscope_populations::catalog::population(kind, options, &parameters);
+    let own = environment.map(Environment::shared);
+    let build = || match own {
+        Some(own) => catalog::stand_in(own, options, &parameters),
+        None => catalog::population(kind, options, &parameters),
+    };
     let population = py.detach(build).map_err(crate::error::to_python)?;
     Ok(Resident::new(population))
 }

@@ -40,10 +40,14 @@ impl Encoder {
         (update.revision, layout, PyBytes::new(py, &update.frame))
     }
 
-    /// Everything that the present layout uses, as (key, message), each before its first use.
-    fn assets<'py>(&self, py: Python<'py>) -> Vec<(u64, Bound<'py, PyBytes>)> {
-        let assets: Vec<_> = self.lock().assets().collect();
-        assets.into_iter().map(|asset| (asset.key, PyBytes::new(py, &asset.bytes))).collect()
+    /// Keys of everything that the present layout uses, each before its first use.
+    fn keys(&self) -> Vec<u64> {
+        self.lock().keys().collect()
+    }
+
+    /// The message of one of them; none for another key.
+    fn asset<'py>(&self, py: Python<'py>, key: u64) -> Option<Bound<'py, PyBytes>> {
+        self.lock().asset(key).map(|bytes| PyBytes::new(py, bytes))
     }
 }
 

@@ -59,6 +59,7 @@ impl World {
 fn registry(kinds: Vec<String>, fields: Vec<String>, minds: Vec<String>) -> Registry {
     let mut registry = bioscope_populations::registry();
     bioscope_populations::add_animals(&mut registry, crate::mind::parts(minds));
+    bioscope_populations::add_stands(&mut registry, crate::environments::revived);
     for kind in kinds {
         let name = kind.clone();
         registry.add_population(&kind, move |bytes| {

@@ -1,17 +1,22 @@
 use bioscope_geometry::{Material, Mesh, Texture};
 use bytemuck::cast_slice;
 use serde::Serialize;
-use serde_bytes::Bytes;
+use serde_bytes::{ByteBuf, Bytes};
+
+use crate::quantize;
 
 #[derive(Serialize)]
 struct MeshMessage<'a> {
     r#type: &'static str,
     key: u64,
-    positions: &'a Bytes,
-    normals: &'a Bytes,
+    r#box: [f32; 6],
+    positions: ByteBuf,
+    normals: ByteBuf,
     uvs: Option<&'a Bytes>,
-    colors: Option<&'a Bytes>,
-    triangles: &'a Bytes,
+    brightest: f32,
+    colors: Option<ByteBuf>,
+    triangles: Option<&'a Bytes>,
+    short_triangles: Option<ByteBuf>,
     levels: Vec<(f32, u64)>,
     #[serde(flatten)]
     skin: Option<SkinMessage<'a>>,
@@ -19,10 +24,10 @@ struct MeshMessage<'a> {
 
 #[derive(Serialize)]
 struct SkinMessage<'a> {
-    parents: serde_bytes::ByteBuf,
-    rest: serde_bytes::ByteBuf,
+    parents: ByteBuf,
+    rest: ByteBuf,
     joint_indices: &'a Bytes,
-    joint_weights: &'a Bytes,
+    joint_weights: ByteBuf,
 }
 
 /// The message that describes a mesh.
@@ -31,21 +36,33 @@ pub fn mesh(mesh: &Mesh) -> Vec<u8> {
         let parent = |joint: &bioscope_geometry::Joint| joint.parent.map_or(-1_i8, |one| one as i8);
         let parents: Vec<u8> = skin.joints.iter().map(|joint| parent(joint) as u8).collect();
         let rest: Vec<_> = skin.joints.iter().map(|joint| joint.rest).collect();
+        let weights = skin.weights.iter().flatten().map(|weight| (weight * 255.0).round() as u8);
         SkinMessage {
             parents: parents.into(),
             rest: cast_slice::<_, u8>(&rest).to_vec().into(),
             joint_indices: Bytes::new(cast_slice(&skin.indices)),
-            joint_weights: Bytes::new(cast_slice(&skin.weights)),
+            joint_weights: weights.collect::<Vec<u8>>().into(),
         }
     });
+    let (low, high) = quantize::bounds(mesh.positions.iter().copied());
+    let colors = || mesh.colors.iter().flatten().copied();
+    let brightest = colors().fold(1e-6, f32::max);
+    let step = 65535.0 / brightest;
+    let colors = colors().flat_map(|part| ((part * step).round() as u16).to_le_bytes());
+    let colors: Vec<u8> = colors.collect();
+    let is_small = mesh.positions.len() <= 65536;
+    let short = || mesh.triangles.iter().flatten().flat_map(|&one| (one as u16).to_le_bytes());
     encode(&MeshMessage {
         r#type: "mesh",
         key: mesh.key.number(),
-        positions: Bytes::new(cast_slice(&mesh.positions)),
-        normals: Bytes::new(cast_slice(&mesh.normals)),
+        r#box: [low.x, low.y, low.z, high.x, high.y, high.z],
+        positions: quantize::points(mesh.positions.iter().copied(), low, high).into(),
+        normals: quantize::directions(&mesh.normals).into(),
         uvs: present(cast_slice(&mesh.uvs)),
-        colors: present(cast_slice(&mesh.colors)),
-        triangles: Bytes::new(cast_slice(&mesh.triangles)),
+        brightest,
+        colors: (!colors.is_empty()).then(|| colors.into()),
+        triangles: (!is_small).then(|| Bytes::new(cast_slice(&mesh.triangles))),
+        short_triangles: is_small.then(|| short().collect::<Vec<u8>>().into()),
         levels: mesh.levels.iter().map(|(size, level)| (*size, level.key.number())).collect(),
         skin,
     })
@@ -61,7 +78,7 @@ struct TextureMessage {
     key: u64,
     width: u32,
     height: u32,
-    png: serde_bytes::ByteBuf,
+    png: ByteBuf,
 }
 
 /// The message that carries a texture as a PNG file.

@@ -1,10 +1,10 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use bioscope_geometry::{Mesh, Scene};
+use bioscope_geometry::{Batch, Mesh, Scene};
 
-use crate::frame::Placed;
-use crate::layout::Signature;
+use crate::batch::Laid;
+use crate::layout::Surroundings;
 use crate::{asset, frame, layout};
 
 /// What a frame says beside the scene.
@@ -18,15 +18,6 @@ pub struct Status {
     pub rate: f64,
     /// Whether to send annotations.
     pub annotations: bool,
-}
-
-/// A shared thing that a page must have before the layout that uses it.
-#[derive(Clone, Debug)]
-pub struct Asset {
-    /// Unique in the process.
-    pub key: u64,
-    /// The message.
-    pub bytes: Arc<[u8]>,
 }
 
 /// What came of encoding one scene.
@@ -44,42 +35,48 @@ pub struct Update {
 pub struct Encoder {
     assets: BTreeMap<u64, Arc<[u8]>>,
     revision: u64,
-    signature: Option<Signature>,
-    placed: Placed,
+    surroundings: Option<Surroundings>,
+    laid: BTreeMap<String, Laid>,
 }
 
 impl Encoder {
     /// Encodes a scene: a frame, and a layout if things came, went or changed their looks.
     pub fn encode(&mut self, scene: &Scene, status: &Status) -> Update {
-        let signature = Signature::of(scene);
+        let surroundings = Surroundings::of(scene);
+        let fits = |batch: &Batch| self.laid.get(&batch.name).is_some_and(|one| one.fits(batch));
+        let same = self.surroundings.as_ref() == Some(&surroundings)
+            && self.laid.len() == scene.batches.len()
+            && scene.batches.iter().all(fits);
         let mut message = None;
-        if self.signature.as_ref() != Some(&signature) {
-            self.signature = Some(signature);
+        if !same {
+            self.surroundings = Some(surroundings);
             self.revision += 1;
-            self.placed = scene
-                .batches
-                .iter()
-                .map(|one| (one.name.clone(), one.transforms.clone()))
-                .collect();
-            self.collect_assets(scene);
-            message = Some(layout::layout(scene, self.revision).into());
+            let keys = self.lay_out(scene);
+            message = Some(layout::layout(scene, keys, self.revision).into());
         }
-        let frame = frame::frame(scene, self.revision, &self.placed, status);
+        let frame = frame::frame(scene, self.revision, &self.laid, status);
         Update { revision: self.revision, layout: message, frame }
     }
 
-    /// Everything that the present layout uses, in an order in which each comes before its first use.
-    pub fn assets(&self) -> impl Iterator<Item = Asset> + '_ {
-        self.assets.iter().map(|(key, bytes)| Asset { key: *key, bytes: bytes.clone() })
+    /// Keys of everything that the present layout uses. In their order each comes before its first use.
+    pub fn keys(&self) -> impl Iterator<Item = u64> + '_ {
+        self.assets.keys().copied()
     }
 
-    /// Keeps the messages of what the scene uses, makes the missing ones, forgets the others.
-    fn collect_assets(&mut self, scene: &Scene) {
+    /// The message of one of them.
+    pub fn asset(&self, key: u64) -> Option<&Arc<[u8]>> {
+        self.assets.get(&key)
+    }
+
+    /// Keeps the messages of what the scene uses, makes the missing ones, forgets the others; keys of the batches.
+    fn lay_out(&mut self, scene: &Scene) -> Vec<u64> {
         let mut old = std::mem::take(&mut self.assets);
+        let mut laid = std::mem::take(&mut self.laid);
         let mut keep = |key: u64, make: &dyn Fn() -> Vec<u8>| {
             let known = || old.remove(&key).unwrap_or_else(|| make().into());
             self.assets.entry(key).or_insert_with(known);
         };
+        let mut keys = Vec::with_capacity(scene.batches.len());
         for batch in &scene.batches {
             let material = &batch.material;
             if let Some(texture) = &material.texture {
@@ -87,7 +84,13 @@ impl Encoder {
             }
             keep(material.key.number(), &|| asset::material(material));
             keep_mesh(&batch.mesh, &mut keep);
+            let former = laid.remove(&batch.name).filter(|one| one.fits(batch));
+            let one = former.unwrap_or_else(|| Laid::of(batch));
+            keep(one.key.number(), &|| one.message(batch));
+            keys.push(one.key.number());
+            self.laid.insert(batch.name.clone(), one);
         }
+        keys
     }
 }
 
@@ -101,7 +104,7 @@ fn keep_mesh(mesh: &Mesh, keep: &mut impl FnMut(u64, &dyn Fn() -> Vec<u8>)) {
 #[cfg(test)]
 mod tests {
     use bioscope_core::Vec3;
-    use bioscope_geometry::{Batch, Joint, Material, Skin, Transform};
+    use bioscope_geometry::{Joint, Material, Skin, Transform};
 
     use super::*;
 
@@ -146,10 +149,37 @@ mod tests {
     fn assets_are_kept_while_used_and_forgotten_after() {
         let mut encoder = Encoder::default();
         encoder.encode(&scene(1, 0.0), &Status::default());
-        let first: Vec<u64> = encoder.assets().map(|asset| asset.key).collect();
-        assert_eq!(first.len(), 2);
+        let first: Vec<u64> = encoder.keys().collect();
+        assert_eq!(first.len(), 3);
         encoder.encode(&scene(1, 0.0), &Status::default());
-        assert!(encoder.assets().all(|asset| !first.contains(&asset.key)));
+        assert!(encoder.keys().all(|key| !first.contains(&key)));
+    }
+
+    #[test]
+    fn only_the_batches_that_changed_are_sent_again() {
+        let mut encoder = Encoder::default();
+        let mut now = scene(2, 0.0);
+        let mut other = now.batches[0].clone();
+        other.name = String::from("crab");
+        now.batches.push(other);
+        encoder.encode(&now, &Status::default());
+        let first: Vec<u64> = encoder.keys().collect();
+        now.batches[1].ids[0] = 7;
+        assert!(encoder.encode(&now, &Status::default()).layout.is_some());
+        let second: Vec<u64> = encoder.keys().collect();
+        let fresh = second.iter().filter(|key| !first.contains(key));
+        assert_eq!((second.len(), fresh.count()), (4, 1));
+    }
+
+    #[test]
+    fn growth_is_told_by_frames_alone() {
+        let mut encoder = Encoder::default();
+        let mut now = scene(200, 0.0);
+        now.batches[0].poses.clear();
+        encoder.encode(&now, &Status::default());
+        now.batches[0].transforms[3].scale = 2.0;
+        let update = encoder.encode(&now, &Status::default());
+        assert!(update.layout.is_none() && update.frame.len() < 700, "{}", update.frame.len());
     }
 
     #[test]

@@ -6,6 +6,7 @@ use serde::Serialize;
 use serde_bytes::ByteBuf;
 
 use crate::asset::encode;
+use crate::batch::Laid;
 use crate::{Status, quantize};
 
 #[derive(Serialize)]
@@ -31,6 +32,10 @@ struct MovingMessage {
     positions: Option<ByteBuf>,
     #[serde(skip_serializing_if = "Option::is_none")]
     rotations: Option<ByteBuf>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    size: Option<[f32; 2]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    scales: Option<ByteBuf>,
     #[serde(skip_serializing_if = "Option::is_none")]
     extent: Option<f32>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -61,14 +66,16 @@ struct AnnotationMessage<'a> {
     text: Option<&'a str>,
 }
 
-/// Placement of the instances when the layout was made, by batch.
-pub type Placed = BTreeMap<String, Vec<Transform>>;
-
-/// The message that says where everything is now.
-pub fn frame(scene: &Scene, revision: u64, placed: &Placed, status: &Status) -> Vec<u8> {
+/// The message that says where everything is now; `laid` has the batches as they are known, by name.
+pub fn frame(
+    scene: &Scene,
+    revision: u64,
+    laid: &BTreeMap<String, Laid>,
+    status: &Status,
+) -> Vec<u8> {
     let batches = scene.batches.iter();
     let moving = batches
-        .filter_map(|batch| Some((batch.name.as_str(), moving(batch, placed.get(&batch.name))?)));
+        .filter_map(|batch| Some((batch.name.as_str(), moving(batch, laid.get(&batch.name)?)?)));
     let drifting = scene.points.iter().map(|points| (points.name.as_str(), drifting(points)));
     let annotations = || scene.annotations.iter().map(annotation).collect();
     encode(&FrameMessage {
@@ -85,14 +92,25 @@ pub fn frame(scene: &Scene, revision: u64, placed: &Placed, status: &Status) -> 
     })
 }
 
-fn moving(batch: &Batch, placed: Option<&Vec<Transform>>) -> Option<MovingMessage> {
+fn moving(batch: &Batch, laid: &Laid) -> Option<MovingMessage> {
     let mut message = MovingMessage::default();
-    if placed.is_none_or(|placed| *placed != batch.transforms) {
+    let changed = |part: fn(&Transform) -> [f32; 4]| {
+        let pairs = laid.transforms.iter().zip(&batch.transforms);
+        laid.transforms.len() != batch.transforms.len()
+            || pairs.into_iter().any(|(old, new)| part(old) != part(new))
+    };
+    if changed(|one| one.position.extend(0.0).to_array()) {
         let positions = || batch.transforms.iter().map(|one| one.position);
         let (low, high) = quantize::bounds(positions());
         message.r#box = Some(corners(low, high));
         message.positions = Some(quantize::points(positions(), low, high).into());
+    }
+    if changed(|one| one.rotation().to_array()) {
         message.rotations = Some(quantize::rotations(batch.transforms.iter()).into());
+    }
+    if changed(|one| [one.scale; 4]) {
+        let (size, scales) = quantize::scales(batch.transforms.iter().map(|one| one.scale));
+        (message.size, message.scales) = (Some(size), Some(scales.into()));
     }
     if !batch.poses.is_empty() {
         let reach = batch.poses.iter().map(|pose| pose.position.abs().max_element());
@@ -100,7 +118,9 @@ fn moving(batch: &Batch, placed: Option<&Vec<Transform>>) -> Option<MovingMessag
         message.extent = Some(extent);
         message.poses = Some(quantize::poses(batch.poses.iter(), extent).into());
     }
-    (message.positions.is_some() || message.poses.is_some()).then_some(message)
+    let MovingMessage { positions, rotations, scales, poses, .. } = &message;
+    let any = [positions, rotations, scales, poses].into_iter().any(Option::is_some);
+    any.then_some(message)
 }
 
 fn drifting(points: &Points) -> DriftingMessage {

@@ -2,9 +2,10 @@
 //! shared things once, moving things quantized.
 
 mod asset;
+mod batch;
 mod encoder;
 mod frame;
 mod layout;
 pub mod quantize;
 
-pub use encoder::{Asset, Encoder, Status, Update};
+pub use encoder::{Encoder, Status, Update};

@@ -28,6 +28,22 @@ pub fn rotations<'a>(transforms: impl Iterator<Item = &'a Transform>) -> Vec<u8>
     transforms.flat_map(quaternion).flat_map(i16::to_le_bytes).collect()
 }
 
+/// Sizes as one u16 each, 0 to 65535 from the least to the greatest, which come first.
+pub fn scales(scales: impl Iterator<Item = f32> + Clone) -> ([f32; 2], Vec<u8>) {
+    let (least, greatest) = scales
+        .clone()
+        .fold((f32::INFINITY, f32::NEG_INFINITY), |(a, b), one| (a.min(one), b.max(one)));
+    let step = 65535.0 / (greatest - least).max(1e-12);
+    let whole = scales.map(|one| ((one - least) * step).round().clamp(0.0, 65535.0) as u16);
+    ([least, greatest], whole.flat_map(u16::to_le_bytes).collect())
+}
+
+/// Unit vectors as three i16 each, × 32767.
+pub fn directions(directions: &[Vec3]) -> Vec<u8> {
+    let whole = directions.iter().flat_map(|one| one.to_array().map(|part| signed(part * LARGEST)));
+    whole.flat_map(i16::to_le_bytes).collect()
+}
+
 /// Joint poses as seven i16 each: position × 32767 / extent, quaternion × 32767.
 pub fn poses<'a>(transforms: impl Iterator<Item = &'a Transform>, extent: f32) -> Vec<u8> {
     let scale = LARGEST / extent.max(1e-6);

@@ -46,7 +46,7 @@ impl Derivation<'_> {
         let stances = if has_queries { self.stances(&queries)? } else { Vec::new() };
         let messages = self.fill(&queries, stances);
         let Some(mut environment) = self.options.environment.take() else { return Ok(()) };
-        let sent: Vec<f32> = self.string.parameters.clone();
+        let sent = if messages.is_empty() { Vec::new() } else { self.string.parameters.clone() };
         let (requests, mut replies) = addressed(&self.string, &self.ids, &messages, &sent);
         let mut replies =
             replies.iter_mut().map(|reply| Reply { parameters: reply }).collect::<Vec<_>>();

@@ -121,8 +121,8 @@ impl Environment for Collision {
         Ok(())
     }
 
-    fn memory(&self) -> Vec<u8> {
-        state::to_bytes(&self.clusters)
+    fn memory(&self) -> bioscope_core::Result<Vec<u8>> {
+        Ok(state::to_bytes(&self.clusters))
     }
 
     fn recall(&mut self, memory: &[u8]) -> bioscope_core::Result<()> {

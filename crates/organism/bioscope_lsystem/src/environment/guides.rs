@@ -240,7 +240,7 @@ impl Environment for Obstacles {
 }
 
 /// The angles of `+` and then `&` that turn the turtle to a direction, degrees.
-fn turns(request: &Request, direction: Vec3) -> (f32, f32) {
+pub(super) fn turns(request: &Request, direction: Vec3) -> (f32, f32) {
     use bioscope_core::math;
     let up = request.heading.cross(request.left);
     let yaw = math::atan2(direction.dot(request.left), direction.dot(request.heading));

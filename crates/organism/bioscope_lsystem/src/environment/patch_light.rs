@@ -276,8 +276,8 @@ impl Environment for PatchLight {
         Ok(())
     }
 
-    fn memory(&self) -> Vec<u8> {
-        state::to_bytes(&(&self.leaves, self.count, self.cell, self.largest))
+    fn memory(&self) -> bioscope_core::Result<Vec<u8>> {
+        Ok(state::to_bytes(&(&self.leaves, self.count, self.cell, self.largest)))
     }
 
     fn recall(&mut self, memory: &[u8]) -> bioscope_core::Result<()> {

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use super::collision::{Collision, Competition};
 use super::guides::{Obstacles, Pole, Pruning};
+use super::limbs::Limbs;
 use super::patch_light::{LightMap, PatchLight};
 use super::settings::Settings;
 use super::shadow::{Density, DensityVoxels, ShadowVoxels};
@@ -16,7 +17,7 @@ use crate::EnvironmentFile;
 /// Most bytes of an environment file or a specification.
 const LARGEST: u64 = 16 << 20;
 
-const NAMES: [&str; 20] = [
+const NAMES: [&str; 21] = [
     "sky_light",
     "patch_light",
     "leaf_discs",
@@ -27,6 +28,7 @@ const NAMES: [&str; 20] = [
     "community",
     "pole",
     "obstacles",
+    "limbs",
     "pruning",
     "shadow_voxels",
     "chiba",
@@ -72,6 +74,7 @@ pub fn built_in(
         "density3d" => Box::new(DensityVoxels::from_settings(settings)?),
         "shadowpyramid" | "shadow_voxels" => Box::new(ShadowVoxels::from_settings(settings)?),
         "pole" => Box::new(Pole::from_settings(settings)?),
+        "limbs" => Box::new(Limbs::from_settings(settings)?),
         "obstacles" => Box::new(Obstacles::from_settings(settings)?),
         "pruning" => Box::new(Pruning::from_settings(settings)?),
         _ => {
@@ -121,6 +124,9 @@ mod tests {
     fn every_name_gives_an_environment() {
         for name in NAMES {
             let mut settings = Settings::default();
+            if name == "limbs" {
+                settings.set("limb", "0 0 0 0 1 0 0.1 0.1");
+            }
             if name == "soil" {
                 settings.set("array", "1 1 1 0 1 0.5");
             }

@@ -136,6 +136,10 @@ impl Environment for ShadowVoxels {
         }
         Ok(())
     }
+
+    fn forgets(&self) -> bool {
+        true
+    }
 }
 
 /// Amounts that messages `?E(v)` add up in voxels; the answer is the sum in the voxel so far.

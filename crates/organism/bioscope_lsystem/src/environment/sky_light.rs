@@ -12,6 +12,8 @@ use super::{Environment, EnvironmentError, Reply, Request};
 const DARK: f64 = 1e-7;
 /// Balls that one thread takes at a time.
 const SHARE: usize = 512;
+/// Directions that are looked at together.
+const TOGETHER: usize = 16;
 /// Most directions from which light comes.
 const DIRECTIONS: u32 = 8192;
 
@@ -197,33 +199,43 @@ impl SkyLight {
     fn light(&self, balls: &[Ball]) -> Vec<(f64, DVec3)> {
         let mut light = vec![(0.0, DVec3::ZERO); balls.len()];
         let largest = balls.iter().map(|ball| ball.radius).fold(0.0, f64::max);
-        for source in &self.sources {
-            let direction = source.direction;
-            let across = direction.any_orthonormal_vector();
-            let over = direction.cross(across);
-            let seen = |ball: &Ball| Shadow {
-                place: [ball.center.dot(across), ball.center.dot(over)],
-                depth: ball.center.dot(direction),
-                radius: ball.radius,
-            };
-            let shadows: Vec<Shadow> = balls.iter().map(seen).collect();
-            let places: Vec<[f64; 2]> = shadows.iter().map(|shadow| shadow.place).collect();
-            let cells = Cells::new(&places, largest);
-            // In each cell those nearest to the sky first.
-            let mut sorted: Vec<Shadow> = Vec::with_capacity(shadows.len());
-            for range in cells.ranges() {
-                let start = sorted.len();
-                sorted.extend(cells.points[range].iter().map(|&ball| shadows[ball as usize]));
-                sorted[start..].sort_by(|a, b| b.depth.total_cmp(&a.depth));
+        for sources in self.sources.chunks(TOGETHER) {
+            let passing = sources.par_iter().map(|one| self.passing_all(one, balls, largest));
+            let passing: Vec<Vec<f64>> = passing.collect();
+            // Direction after direction, whatever the threads.
+            for (source, passing) in sources.iter().zip(passing) {
+                for ((sum, way), passing) in light.iter_mut().zip(passing) {
+                    let share = source.share * passing;
+                    *sum += share;
+                    *way += source.direction * share;
+                }
             }
-            let lit = shadows.par_iter().zip(&mut light).with_min_len(SHARE);
-            lit.for_each(|(own, (sum, way))| {
-                let share = source.share * self.passing(own, &sorted, &cells, largest);
-                *sum += share;
-                *way += direction * share;
-            });
         }
         light
+    }
+
+    /// The share of light from one direction that gets through to each ball.
+    fn passing_all(&self, source: &Source, balls: &[Ball], largest: f64) -> Vec<f64> {
+        let direction = source.direction;
+        let across = direction.any_orthonormal_vector();
+        let over = direction.cross(across);
+        let seen = |ball: &Ball| Shadow {
+            place: [ball.center.dot(across), ball.center.dot(over)],
+            depth: ball.center.dot(direction),
+            radius: ball.radius,
+        };
+        let shadows: Vec<Shadow> = balls.iter().map(seen).collect();
+        let places: Vec<[f64; 2]> = shadows.iter().map(|shadow| shadow.place).collect();
+        let cells = Cells::new(&places, largest);
+        // In each cell those nearest to the sky first.
+        let mut sorted: Vec<Shadow> = Vec::with_capacity(shadows.len());
+        for range in cells.ranges() {
+            let start = sorted.len();
+            sorted.extend(cells.points[range].iter().map(|&ball| shadows[ball as usize]));
+            sorted[start..].sort_by(|a, b| b.depth.total_cmp(&a.depth));
+        }
+        let lit = shadows.par_iter().with_min_len(SHARE);
+        lit.map(|own| self.passing(own, &sorted, &cells, largest)).collect()
     }
 
     /// The share of light from one direction that gets through to a ball.
@@ -296,6 +308,10 @@ impl Environment for SkyLight {
             }
         }
         Ok(())
+    }
+
+    fn forgets(&self) -> bool {
+        true
     }
 }
 

@@ -348,8 +348,8 @@ impl Environment for SoilWater {
         Ok(())
     }
 
-    fn memory(&self) -> Vec<u8> {
-        state::to_bytes(&self.water)
+    fn memory(&self) -> bioscope_core::Result<Vec<u8>> {
+        Ok(state::to_bytes(&self.water))
     }
 
     fn recall(&mut self, memory: &[u8]) -> bioscope_core::Result<()> {

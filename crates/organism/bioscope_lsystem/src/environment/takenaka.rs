@@ -155,6 +155,10 @@ impl Environment for LeafBalls {
         }
         Ok(())
     }
+
+    fn forgets(&self) -> bool {
+        true
+    }
 }
 
 #[cfg(test)]

@@ -176,13 +176,19 @@ impl Stand {
         Ok(())
     }
 
-    /// Asks the environment for all plants, in the order of their identities, and tells them the answers.
+    /// Asks the environment for all plants, in the order of their identities, and tells them the answers. One that
+    /// forgets is told of those plants too that do not ask in this step.
     pub(super) fn exchange(&mut self) -> Result<()> {
         let Some(environment) = &mut self.environment else { return Ok(()) };
-        let space = &self.state.space;
+        let (space, forgets) = (&self.state.space, environment.forgets());
+        let asks = self.state.plants.iter().any(|plant| !plant.letters.is_empty());
+        if forgets && !asks {
+            return Ok(());
+        }
         let mut letters: Vec<Letter> = Vec::new();
         for plant in &self.state.plants {
-            for letter in &plant.letters {
+            let own = if plant.letters.is_empty() { &plant.shade } else { &plant.letters };
+            for letter in own {
                 let mut letter = space.addressed(letter, plant.position, plant.yaw);
                 letter.id |= u64::from(plant.id) << 32;
                 letter.module = letters.len();
@@ -198,10 +204,17 @@ impl Stand {
             .map_err(|error| Error::format(&self.state.options.species, error.to_string()))?;
         let mut answers = answers.into_iter();
         for plant in &mut self.state.plants {
+            if plant.letters.is_empty() {
+                answers.by_ref().take(plant.shade.len()).for_each(drop);
+                continue;
+            }
             let own = std::mem::take(&mut plant.letters);
             let told: Vec<(usize, Vec<f32>)> =
                 own.iter().zip(&mut answers).map(|(one, answer)| (one.module, answer)).collect();
             plant.progress.answer(&self.models.of(plant.source).system, &told);
+            if forgets {
+                plant.shade = own;
+            }
         }
         Ok(())
     }

@@ -62,6 +62,9 @@ pub(super) fn environment(options: &StandOptions) -> Result<Option<Box<dyn Envir
         if asked.name.is_empty() {
             return Ok(None);
         }
+        if asked.foreign {
+            return Err(missing(&asked.name));
+        }
         let settings = settings(&asked.settings);
         return built_in(&asked.name, &settings, asked.map.clone()).map(Some).map_err(refused);
     }
@@ -75,6 +78,11 @@ pub(super) fn environment(options: &StandOptions) -> Result<Option<Box<dyn Envir
         Some(words) => DerivationOptions::environment_of(words).map(Some).map_err(refused),
         None => Ok(None),
     }
+}
+
+/// What is said where an environment is needed that is none of the engine's.
+pub(super) fn missing(name: &str) -> Error {
+    Error::format("environment", format!("{name} is none of the engine's; give it to the stand"))
 }
 
 impl Model {

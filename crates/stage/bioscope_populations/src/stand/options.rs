@@ -50,11 +50,14 @@ impl StandParameters {
     }
 }
 
-/// A built-in environment by name, as [`bioscope_lsystem::built_in`] makes it.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+/// An environment: a built-in one by name, as [`bioscope_lsystem::built_in`] makes it, or a foreign one.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Surroundings {
     /// Its name: `sky_light`.
     pub name: String,
+    /// Whether it is none of the engine's: the stand is given it, and a saved one is brought back by its name.
+    #[serde(default)]
+    pub foreign: bool,
     /// Its settings.
     #[serde(default)]
     pub settings: Vec<(String, String)>,
@@ -152,6 +155,12 @@ impl Default for StandOptions {
 }
 
 impl StandOptions {
+    /// Name of the environment if it is none of the engine's.
+    pub(super) fn foreign(&self) -> Option<&str> {
+        let asked = self.environment.as_ref().filter(|asked| asked.foreign);
+        asked.map(|asked| asked.name.as_str())
+    }
+
     /// Refuses what has no meaning or is too much.
     pub fn check(&self) -> Result<()> {
         self.habitat.check()?;

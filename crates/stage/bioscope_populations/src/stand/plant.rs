@@ -28,6 +28,8 @@ pub(super) struct Plant {
     pub progress: Progress,
     /// What it asks in this step.
     pub letters: Vec<Letter>,
+    /// What it asked last, where the surroundings forget: it shades the others in steps in which it does not ask.
+    pub shade: Vec<Letter>,
     /// Whether it has ever drawn anything.
     pub sprouted: bool,
     /// What it drew in the last step for the first time, if that is to unfold.
@@ -69,6 +71,7 @@ impl Plant {
             sway: Sway::default(),
             progress,
             letters,
+            shade: Vec::new(),
             sprouted: false,
             young: Young::default(),
             bare: false,

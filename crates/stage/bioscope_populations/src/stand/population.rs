@@ -12,7 +12,7 @@ use super::StandOptions;
 use super::falling::Falling;
 use super::growing::News;
 use super::look::{Form, Look};
-use super::model::{Models, environment};
+use super::model::{Models, environment, missing};
 use super::plant::Plant;
 use super::show::Shared;
 use super::space::Space;
@@ -53,30 +53,46 @@ pub(super) struct State {
 impl Stand {
     /// A stand of these options. Texts and environment are read at once, so that errors in them are reported here.
     pub fn new(options: StandOptions) -> Result<Self> {
+        let environment = environment(&options)?;
+        Self::in_environment(options, environment)
+    }
+
+    /// A stand in this environment, whatever its texts ask for. One that is none of the engine's must be called
+    /// `foreign` in the options.
+    pub fn in_environment(
+        options: StandOptions,
+        environment: Option<Box<dyn Environment>>,
+    ) -> Result<Self> {
         let space = Space { origin: Vec3::ZERO, size: options.size, lying: options.lying };
         let (plants, falling, news) = (Vec::new(), Vec::new(), Vec::new());
         let state = State { options, space, step: 0, part: 0.0, done: 0, plants, falling, news };
-        Self::with(state, &[])
+        Self::with(state, environment)
     }
 
-    /// A stand in a state that `save` gave.
-    pub fn from_saved(bytes: &[u8]) -> Result<Self> {
+    /// A stand in a state that `save` gave; `revive` brings an environment back that is none of the engine's.
+    pub fn from_saved(
+        bytes: &[u8],
+        revive: impl FnOnce(&str) -> Result<Box<dyn Environment>>,
+    ) -> Result<Self> {
         let (state, memory): (State, Vec<u8>) = state::from_bytes("stand", bytes)?;
-        let mut stand = Self::with(state, &memory)?;
+        let mut own = match state.options.foreign() {
+            Some(name) => Some(revive(name)?),
+            None => environment(&state.options)?,
+        };
+        if let Some(environment) = own.as_mut().filter(|_| !memory.is_empty()) {
+            environment.recall(&memory)?;
+        }
+        let mut stand = Self::with(state, own)?;
         stand.look_again()?;
         stand.share();
         Ok(stand)
     }
 
-    fn with(state: State, memory: &[u8]) -> Result<Self> {
+    fn with(state: State, environment: Option<Box<dyn Environment>>) -> Result<Self> {
         state.options.check()?;
         let models = Models::read(&state.options)?;
         for plant in &state.plants {
             plant.progress.check(&models.of(plant.source).system)?;
-        }
-        let mut environment = environment(&state.options)?;
-        if let Some(environment) = environment.as_mut().filter(|_| !memory.is_empty()) {
-            environment.recall(memory)?;
         }
         let own = models.list[0].system.derivation_length();
         let steps = state.options.steps.unwrap_or(u64::from(own));
@@ -175,13 +191,20 @@ impl Population for Stand {
     }
 
     fn save(&self) -> Result<Vec<u8>> {
-        let memory = self.environment.as_ref().map_or_else(Vec::new, |one| one.memory());
+        let memory = self.environment.as_ref().map(|one| one.memory()).transpose()?;
+        let memory = memory.unwrap_or_default();
         Ok(state::to_bytes(&(&self.state, memory)))
     }
 
     fn restore(&mut self, bytes: &[u8]) -> Result<()> {
-        *self = Self::from_saved(bytes)?;
+        let own = self.environment.take();
+        // One that is none of the engine's goes on.
+        *self = Self::from_saved(bytes, |name| own.ok_or_else(|| missing(name)))?;
         Ok(())
+    }
+
+    fn may_fail(&self) -> bool {
+        self.state.options.foreign().is_some()
     }
 
     fn parameters(&self) -> Option<&dyn Parameters> {

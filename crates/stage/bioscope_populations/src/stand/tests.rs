@@ -125,12 +125,12 @@ fn refuses_what_makes_no_sense() {
     assert!(Stand::new(broken).is_err());
     let mut strange = sprouts(vec![[0.0, 0.0]]);
     strange.environment =
-        Some(Surroundings { name: String::from("moon"), settings: Vec::new(), map: None });
+        Some(Surroundings { name: String::from("moon"), ..Surroundings::default() });
     assert!(Stand::new(strange).is_err());
     let mut world = world(sprouts(vec![[0.0, 0.0], [1.0, 0.0]]));
     step(&mut world, 4);
     let bytes = world.populations()[0].population.save().unwrap();
     for cut in [0, 1, bytes.len() / 2, bytes.len() - 1] {
-        assert!(Stand::from_saved(&bytes[..cut]).is_err());
+        assert!(Stand::from_saved(&bytes[..cut], |name| Err(missing(name))).is_err());
     }
 }
