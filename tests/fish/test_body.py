@@ -1,5 +1,8 @@
 """The body of springs: what it is made of, what it keeps, how it swims."""
 
+import re
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -148,6 +151,53 @@ def test_a_passive_fish_floats_and_is_carried_by_the_current():
     assert abs(tank.center[1]) < 0.1 * tank.length
 
 
+@pytest.mark.capability("TF-019", "TF-170")
+def test_a_current_is_felt_where_the_fish_is():
+    tank = bio.fish.Tank("anthias")
+    tank.flow(bio.Current((1, 0, 0), speed=0.2, surge=0.0, turbulence=0.0))
+    # The water's hold on it falls with the square of what is still missing.
+    tank.run(60)
+    assert tank.velocity == pytest.approx([0.2, 0, 0], abs=0.02)
+    eddies = bio.fish.Tank("anthias")
+    eddies.flow(bio.Current((1, 0, 0), speed=0.0, surge=0.0, turbulence=0.3, eddy_size=0.5))
+    eddies.run(10)
+    assert np.linalg.norm(eddies.center) > eddies.length
+
+
+DESIGN = Path(__file__).parents[2] / "crates/organism/bioscope_motion/tables/calibrated.toml"
+
+
+def design(tmp_path: Path, name: str, old: str, new: str) -> str:
+    """Write the calibrated design with a line changed; return its path."""
+    text = DESIGN.read_text(encoding="utf-8")
+    changed = re.sub(old, new, text, count=1, flags=re.M)
+    assert changed != text
+    path = tmp_path / f"{name}.toml"
+    path.write_text(changed, encoding="utf-8")
+    return str(path)
+
+
+@pytest.mark.capability("TF-015")
+def test_other_masses_and_muscles_swim_worse(tmp_path):
+    def speed(preset: str) -> float:
+        """Speed of a fish that beats blindly as the nominal one does in easy swimming."""
+        tank = bio.fish.Tank("anthias", preset=preset)
+        tank.feedback(False)
+        tank.kick((0, 0, tank.cruise))
+        tank.swim(tank.cruise)
+        tank.run(4)
+        start = tank.center
+        tank.run(6)
+        return float(np.linalg.norm(tank.center - start)) / 6
+
+    masses = r"^masses = .*$"
+    heavy = design(tmp_path, "heavy", masses, "masses = [2.2, 6.6, 6.6, 6.6, 6.6, 6.6, 3.3]")
+    weak = design(tmp_path, "weak", r"^shortening = .*$", "shortening = 0.08")
+    nominal = speed(str(DESIGN))
+    assert speed(heavy) < 0.95 * nominal
+    assert speed(weak) < 0.7 * nominal
+
+
 @pytest.mark.capability("TF-022")
 def test_the_numbering_of_the_nodes_decides_the_bandwidth():
     tank = bio.fish.Tank("anthias")
@@ -155,6 +205,24 @@ def test_the_numbering_of_the_nodes_decides_the_bandwidth():
     assert np.abs(np.diff(ends, axis=1)).max() == tank.half_bandwidth == 7
     moved = np.where(ends == 22, 1, np.where(ends == 0, 0, ends + 1))
     assert np.abs(np.diff(moved, axis=1)).max() == 21
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        (r"^step = .*$", "step = nan", "step"),
+        (r"^damping = .*$", "damping = -1.0", "damping"),
+        (r"^damping = .*$", "", "damping"),
+        (r"^damping = ", "dumping = 1.0\ndamping = ", "dumping"),
+        (r"^shortening = .*$", "shortening = 2.0", "shorten"),
+        (r"^stations = .*$", "stations = [0.5, 0.4, 0.3, 0.2, 0.1]", "stations"),
+        (r"^masses = .*$", "masses = [1.0, 1.0, 0.0, 1.0, 1.0, 1.0, 1.0]", "mass"),
+        (r"^friction = .*$", "friction = inf", "friction"),
+    ],
+)
+def test_wrong_designs_are_refused_by_the_name_of_the_field(tmp_path, old, new, message):
+    with pytest.raises(bio.BioscopeError, match=message):
+        bio.fish.Tank("anthias", preset=design(tmp_path, "wrong", old, new))
 
 
 @pytest.mark.capability("TF-020", "TF-023")

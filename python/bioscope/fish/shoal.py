@@ -45,7 +45,7 @@ class Shoal:
 
     @property
     def natural_step(self) -> float:
-        """Seconds of the published step of 0.055 time units; longer ones are divided."""
+        """Seconds of the step for which the body is calibrated; longer ones are divided."""
         return self._engine.natural_step
 
     @property

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
+from pathlib import Path
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
 import numpy as np
 
 from bioscope import _engine
 from bioscope.errors import InvalidValueError
+from bioscope.world.field import Current
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -36,9 +38,11 @@ class Tank:
     preset
         `calibrated`: shape, muscles and water by measurement, so that the fish swims as fishes do.
         `published`: the constants, the water force and the solver of the source; its controllers
-        run blindly, as there.
+        run blindly, as there. Or the path of a design file of your own (.toml), made by changing
+        those of `crates/organism/bioscope_motion/tables`.
     dt
-        Seconds per step; by default the published step of 0.055 time units.
+        Seconds per step; by default that for which the design is calibrated: 0.165 time units, or
+        the published 0.055.
     length
         Metres from snout to tail; by default that of the species.
     integrator
@@ -59,14 +63,17 @@ class Tank:
     def __init__(
         self,
         species: str = "anthias",
-        preset: Preset = "calibrated",
+        preset: Preset | str = "calibrated",
         *,
         dt: float | None = None,
         length: float | None = None,
         integrator: str | None = None,
         water: float = 1.0,
     ) -> None:
-        self._engine = _engine.Tank(species, preset, dt, length, integrator, water)
+        design: str | tuple[str, str] = preset
+        if preset.endswith(".toml"):
+            design = (preset, Path(preset).read_text(encoding="utf-8"))
+        self._engine = _engine.Tank(species, design, dt, length, integrator, water)
         self._engine.set_feedback(preset != "published")
 
     def step(self, activations: ArrayLike | None = None, steps: int = 1) -> None:
@@ -145,8 +152,14 @@ class Tank:
         """Put the nodes at these places (23, 3) in metres, at rest."""
         self._engine.deform(np.asarray(nodes, dtype=np.float64))
 
-    def flow(self, velocity: Sequence[float]) -> None:
-        """Let the water flow with this velocity (x, y, z), m/s."""
+    def flow(self, velocity: Sequence[float] | Current) -> None:
+        """Let the water flow with this velocity (x, y, z), m/s, or as a `bioscope.Current` has it.
+
+        A current is taken at the place of the fish, at the time since the fish was put in.
+        """
+        if isinstance(velocity, Current):
+            self._engine.set_current(velocity._field)
+            return
         x, y, z = (_finite("velocity", axis) for axis in velocity)
         self._engine.set_flow((x, y, z))
 

@@ -20,7 +20,13 @@ pub struct Shoal {
 
 enum Fishes {
     Driven(Swimmers),
-    Replayed { replicas: Vec<Replica>, repertoire: Repertoire, cruise: usize, time_unit: f64 },
+    Replayed {
+        replicas: Vec<Replica>,
+        repertoire: Repertoire,
+        cruise: usize,
+        time_unit: f64,
+        step: f64,
+    },
 }
 
 #[pymethods]
@@ -41,7 +47,7 @@ impl Shoal {
             for _ in 0..ticks {
                 match &mut *fishes {
                     Fishes::Driven(swimmers) => swimmers.advance(seconds),
-                    Fishes::Replayed { replicas, repertoire, cruise, time_unit } => {
+                    Fishes::Replayed { replicas, repertoire, cruise, time_unit, .. } => {
                         let dt = (seconds / *time_unit) as f32;
                         advance_replicas(replicas, repertoire, *cruise, dt);
                     }
@@ -68,7 +74,7 @@ impl Shoal {
     fn natural_step(&self) -> f64 {
         match &*self.lock() {
             Fishes::Driven(swimmers) => swimmers.natural_step(),
-            Fishes::Replayed { time_unit, .. } => 0.055 * time_unit,
+            Fishes::Replayed { time_unit, step, .. } => step * time_unit,
         }
     }
 
@@ -120,7 +126,8 @@ impl Fishes {
                 Replica::new(&repertoire, (place, 0.0, length), (cruise, share))
             });
             let replicas = replicas.collect::<Result<_>>()?;
-            return Ok(Self::Replayed { replicas, repertoire, cruise, time_unit });
+            let step = model.design.step;
+            return Ok(Self::Replayed { replicas, repertoire, cruise, time_unit, step });
         }
         let speed = species.swimming.cruise * length;
         for index in 0..count {

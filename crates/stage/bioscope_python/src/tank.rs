@@ -1,14 +1,16 @@
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use bioscope_core::{Error, Quat, Result, Vec3};
+use bioscope_dynamics::Influence;
 use bioscope_dynamics::spring_body::Integrator;
-use bioscope_motion::fish::{Command, FishModel, Frame, Swimmers};
+use bioscope_motion::fish::{Command, FishDesign, FishModel, Frame, Swimmers};
 use bioscope_populations::fish::FishSpecies;
 use numpy::{IntoPyArray, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 
 use crate::arrays::{Array1, Array2};
 use crate::error::to_python;
+use crate::field::Field;
 
 /// See `bioscope.fish.Tank`.
 #[pyclass(frozen, module = "bioscope._engine")]
@@ -21,6 +23,25 @@ struct State {
     fish: Swimmers<f64>,
     command: Command,
     repairs: u32,
+    /// Water that flows differently from place to place, and the time for it, seconds.
+    current: Option<Box<dyn bioscope_dynamics::Field>>,
+    time: f64,
+}
+
+/// A ready-made design by name, or a design file by name and text.
+#[derive(FromPyObject)]
+enum Preset {
+    Name(String),
+    File(String, String),
+}
+
+impl Preset {
+    fn model(&self) -> Result<FishModel> {
+        match self {
+            Self::Name(name) => Ok(FishModel::clone(&*FishModel::named(name)?)),
+            Self::File(name, text) => FishModel::new(FishDesign::parse(text, name)?),
+        }
+    }
 }
 
 #[pymethods]
@@ -29,13 +50,13 @@ impl Tank {
     #[pyo3(signature = (species, preset, dt=None, length=None, integrator=None, water=1.0))]
     fn new(
         species: &str,
-        preset: &str,
+        preset: Preset,
         dt: Option<f64>,
         length: Option<f64>,
         integrator: Option<&str>,
         water: f64,
     ) -> PyResult<Self> {
-        Self::build(species, preset, (dt, length), (integrator, water)).map_err(to_python)
+        Self::build(species, &preset, (dt, length), (integrator, water)).map_err(to_python)
     }
 
     /// Advances by `steps` steps; with activations, which give the contraction of the 12 muscles, else as the
@@ -84,7 +105,15 @@ impl Tank {
     }
 
     fn set_flow(&self, flow: [f32; 3]) {
-        self.lock().fish.set_flow(0, Vec3::from_array(flow));
+        let mut state = self.lock();
+        state.current = None;
+        state.fish.set_flow(0, Vec3::from_array(flow));
+    }
+
+    /// Lets the water flow as a field says at the place of the fish.
+    fn set_current(&self, field: &Field) -> PyResult<()> {
+        self.lock().current = Some(field.take().map_err(to_python)?);
+        Ok(())
     }
 
     fn deform(&self, nodes: PyReadonlyArray2<'_, f64>) -> PyResult<()> {
@@ -276,12 +305,12 @@ impl Tank {
 impl Tank {
     fn build(
         species: &str,
-        preset: &str,
+        preset: &Preset,
         (dt, length): (Option<f64>, Option<f64>),
         (integrator, water): (Option<&str>, f64),
     ) -> Result<Self> {
         let species = FishSpecies::named(species)?;
-        let mut model = FishModel::clone(&*FishModel::named(preset)?);
+        let mut model = preset.model()?;
         if let Some(name) = integrator {
             model.mechanics.integrator = named_integrator(name)?;
         }
@@ -295,14 +324,22 @@ impl Tank {
             return Err(Error::value("dt", dt, "0.0000001 to 1 second"));
         }
         let command = Command::default();
-        Ok(Self { state: Mutex::new(State { fish, command, repairs: 0 }), dt })
+        let state = State { fish, command, repairs: 0, current: None, time: 0.0 };
+        Ok(Self { state: Mutex::new(state), dt })
     }
 
     fn run(&self, activations: Option<[f32; 12]>, steps: u32) -> Result<()> {
         let mut state = self.lock();
-        let State { fish, repairs, .. } = &mut *state;
+        let State { fish, repairs, current, time, .. } = &mut *state;
         fish.activate(0, activations);
         for _ in 0..steps {
+            if let Some(current) = current {
+                let mut influence = [Influence::default()];
+                let place = fish.center(0).map(|axis| axis as f32);
+                current.add_to(&[Vec3::from_array(place)], *time, &mut influence)?;
+                fish.set_flow(0, influence[0].flow);
+            }
+            *time += self.dt;
             fish.advance_in(self.dt, 1);
             if fish.repairs(0) > *repairs {
                 *repairs = fish.repairs(0);

@@ -175,6 +175,14 @@ impl Motor {
         self.heading = heading;
     }
 
+    /// Beats at once as for this speed in body lengths per time unit, at this share of a beat.
+    pub(crate) fn beat_at(&mut self, design: &FishDesign, speed: f32, phase: f32) {
+        let stroke = design.swim.stroke(f64::from(speed));
+        self.frequency = stroke.frequency as f32;
+        self.amplitudes = stroke.amplitudes.map(|amplitude| amplitude as f32);
+        self.phase = phase - phase.floor();
+    }
+
     /// Goes on by `dt` time units.
     pub fn advance(&mut self, design: &FishDesign, feeling: &Feeling, dt: f32) -> Effort {
         self.feel(feeling, dt);

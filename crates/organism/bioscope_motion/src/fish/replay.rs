@@ -5,6 +5,7 @@ use rayon::prelude::*;
 use super::frame::{Frame, wrapped};
 use super::motor::Command;
 use super::{FishModel, Swimmers};
+use crate::undulation::ORIGIN;
 
 /// Nodes of one moment as columns x, y, z, filled up to a multiple of eight.
 type Columns = [[f32; 24]; 3];
@@ -44,6 +45,8 @@ pub struct Repertoire {
     speeds: Vec<f32>,
     /// Angles of the turn segments, radians, positive to the left; they follow.
     angles: Vec<f32>,
+    /// Deformed bodies over a beat at rest and at each of the speeds, swaying about their way.
+    beats: Vec<Vec<Columns>>,
 }
 
 impl Repertoire {
@@ -63,7 +66,34 @@ impl Repertoire {
             segments.push(turn(model, angle)?);
         }
         let speeds = speeds.map(|speed| speed as f32).to_vec();
-        Ok(Self { segments, speeds, angles: angles.to_vec() })
+        let still = swimming_at_rest(model)?;
+        let ahead = ORIGIN - model.center() as f32;
+        let moving = segments[..speeds.len()].iter().map(|segment| segment.beat(ahead));
+        let beats = std::iter::once(still.beat(ahead)).chain(moving).collect();
+        Ok(Self { segments, speeds, angles: angles.to_vec(), beats })
+    }
+
+    /// The body in steady swimming at a speed in body lengths per time unit, `phase` (0 to 1) after the beginning of a beat: nodes
+    /// in the frame of its form ([`Swimmers::local_nodes`]), body lengths.
+    pub fn beat(&self, speed: f32, phase: f32) -> [Vec3; NODES] {
+        let upper =
+            self.speeds.iter().position(|&one| one > speed).unwrap_or(self.speeds.len() - 1);
+        let low = if upper == 0 { 0.0 } else { self.speeds[upper - 1] };
+        let share = ((speed - low) / (self.speeds[upper] - low)).clamp(0.0, 1.0);
+        let mut nodes = [[0.0; 24]; 3];
+        for (beat, weight) in [(upper, 1.0 - share), (upper + 1, share)] {
+            let beat = &self.beats[beat];
+            let at = (phase - phase.floor()) * (beat.len() - 1) as f32;
+            let index = (at as usize).min(beat.len() - 2);
+            let late = weight * (at - index as f32);
+            for axis in 0..3 {
+                for node in 0..24 {
+                    nodes[axis][node] += (weight - late) * beat[index][axis][node]
+                        + late * beat[index + 1][axis][node];
+                }
+            }
+        }
+        rows(&nodes)
     }
 
     /// The captured segments: forward ones, then turns.
@@ -101,10 +131,20 @@ fn swimming(model: &std::sync::Arc<FishModel>, speed: f64) -> Result<Swimmers<f6
     Ok(fish)
 }
 
+/// A fish that does not move, as a segment of two moments.
+fn swimming_at_rest(model: &std::sync::Arc<FishModel>) -> Result<Segment> {
+    let mut fish = Swimmers::new(std::sync::Arc::clone(model), model.design.swim.cruise)?;
+    fish.add([0.0; 3], Quat::IDENTITY, 1.0)?;
+    Ok(record(&mut fish, model.design.step, |_, moments| moments > 1))
+}
+
 fn forward(model: &std::sync::Arc<FishModel>, speed: f64) -> Result<Segment> {
     let mut fish = swimming(model, speed)?;
-    let period = 1.0 / f64::from(fish.motor(0).frequency);
-    let mut segment = record(&mut fish, period / MOMENTS as f64, |_, moments| moments > MOMENTS);
+    let interval = 1.0 / f64::from(fish.motor(0).frequency) / MOMENTS as f64;
+    while fish.motor(0).phase >= fish.motor(0).frequency * interval as f32 {
+        fish.advance(interval);
+    }
+    let mut segment = record(&mut fish, interval, |_, moments| moments > MOMENTS);
     segment.close();
     Ok(segment)
 }
@@ -188,6 +228,18 @@ impl Segment {
             }
         }
         self.cyclic = true;
+    }
+
+    /// Its nodes turned by how much the trunk sways about the mean of its headings, moved `ahead`.
+    fn beat(&self, ahead: f32) -> Vec<Columns> {
+        let count = self.moments.len() as f32;
+        let mean = self.moments.iter().map(|moment| moment.yaw).sum::<f32>() / count;
+        let swayed = self.moments.iter().map(|moment| {
+            let mut nodes = moment.nodes;
+            carry(&mut nodes, moment.yaw - mean, 1.0, [0.0, 0.0, ahead]);
+            nodes
+        });
+        swayed.collect()
     }
 
     /// Time units it lasts.

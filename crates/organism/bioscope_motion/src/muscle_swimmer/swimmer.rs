@@ -5,6 +5,7 @@ use bioscope_core::{
     Intention, Parameter, Parameters, Quat, Random, Result, Value, Vec3, math, state,
 };
 use bioscope_dynamics::Influence;
+use bioscope_dynamics::spring_body::fish::NODES;
 use bioscope_geometry::Transform;
 
 use super::MusclePhysics;
@@ -41,6 +42,49 @@ impl MuscleSwimmer {
         fish.add([0.0; 3], Quat::IDENTITY, f64::from(spine.length()))?;
         let physics = MusclePhysics::default();
         Ok(Self { preset: preset.to_owned(), physics, fish, spine, swim: SwimState::default() })
+    }
+
+    /// A calibrated fish that goes on from these places of its nodes (metres), with this rotation and this velocity (m/s) of its
+    /// trunk, `phase` (0 to 1) after the beginning of a beat.
+    ///
+    /// # Errors
+    /// For places and lengths (metres) that are not finite.
+    pub fn going_on(
+        spine: Arc<Spine>,
+        length: f32,
+        nodes: &[Vec3; NODES],
+        (rotation, velocity): (Quat, Vec3),
+        phase: f32,
+    ) -> Result<Self> {
+        let mut body = Self::new(spine, "calibrated")?;
+        let model = body.fish.model().clone();
+        let cruise = f64::from(body.spine.gait().cruise);
+        let mut fish = Swimmers::new(model.clone(), cruise)?;
+        fish.add(nodes[5].to_array().map(f64::from), rotation.normalize(), f64::from(length))?;
+        fish.set_nodes(0, &nodes.map(|node| node.to_array().map(f64::from)));
+        fish.kick(0, velocity);
+        let speed = velocity.length() / length * fish.time_unit() as f32;
+        fish.motor_mut(0).beat_at(&model.design, speed, phase);
+        body.fish = fish;
+        Ok(body)
+    }
+
+    /// Share of the present beat that is over, 0 to 1.
+    pub fn phase(&self) -> f32 {
+        self.fish.motor(0).phase
+    }
+
+    /// Direction in which it goes on when the beat that swings its trunk is taken away: a unit vector.
+    pub fn heading(&self) -> Vec3 {
+        let yaw = self.fish.motor(0).heading();
+        let ahead = self.fish.placement(0).rotation() * Vec3::Z;
+        let level = math::sqrt(ahead.x * ahead.x + ahead.z * ahead.z);
+        Vec3::new(level * math::sin(yaw), ahead.y, level * math::cos(yaw)).normalize_or(ahead)
+    }
+
+    /// Its nodes in its placement, body lengths.
+    pub fn local_nodes(&self) -> [Vec3; NODES] {
+        self.fish.local_nodes(0)
     }
 
     /// The fish that [`save`](Body::save) stored.

@@ -108,6 +108,19 @@ impl Flock {
         true
     }
 
+    /// Moves a member to where a body of its own has got to: place (metres), velocity through the medium (m/s), and the unit
+    /// vectors in which it looks and its back points. Members fly the way they look, so of the velocity only what lies ahead
+    /// is taken over: else one that slips sideways or has just started would look elsewhere as soon as its body leaves it.
+    pub fn put(&mut self, index: usize, position: Vec3, velocity: Vec3, [heading, up]: [Vec3; 2]) {
+        let (length, top) = (self.parameters.body_length, self.parameters.top_speed());
+        let slowest = (self.parameters.minimum_speed * length).min(top);
+        let members = &mut self.members;
+        members.positions[index] = position;
+        members.velocities[index] = heading * velocity.dot(heading).clamp(slowest, top);
+        members.headings[index] = heading;
+        members.ups[index] = up;
+    }
+
     /// By which this individual's cruise speed is multiplied.
     fn pace(&self, id: Id) -> f32 {
         let spread = self.parameters.speed_spread;

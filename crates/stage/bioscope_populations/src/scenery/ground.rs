@@ -142,7 +142,7 @@ fn read(bytes: &[u8]) -> Result<State> {
     let mut state: State = state::from_bytes("ground", bytes)?;
     check(&state.options)?;
     if let Some(terrain) = state.terrain.take() {
-        let Terrain { origin, spacing, columns, heights } = terrain;
+        let Terrain { origin, spacing, columns, heights, .. } = terrain;
         state.terrain = Some(Terrain::new(origin, spacing, columns, heights)?);
     }
     Ok(state)

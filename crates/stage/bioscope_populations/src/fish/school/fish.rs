@@ -58,6 +58,8 @@ pub(super) struct Fish {
     pub tempo: f32,
     /// What its spine does.
     pub swim: SwimState,
+    /// Share of its tail beat that is over, 0 to 1, if its motion is replayed.
+    pub beat: f32,
     /// Velocity over ground, metres per second.
     pub motion: Vec3,
     pub mode: Mode,
@@ -90,6 +92,7 @@ impl Fish {
             pace: 1.0 + random.range(-0.1, 0.1),
             rhythm: random.uniform(),
             tempo: random.range(0.7, 1.4),
+            beat: swim.phase / math::TAU,
             swim,
             motion,
             mode: Mode::School,

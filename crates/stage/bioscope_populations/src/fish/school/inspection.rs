@@ -74,6 +74,7 @@ impl FishSchool {
         let polarization = statistics::polarization(self.flock.velocities());
         BTreeMap::from([
             ("count".into(), count as f64),
+            ("driven".into(), self.bodies.driven() as f64),
             ("polarization".into(), f64::from(polarization)),
             ("mean_speed_m_per_s".into(), mean(speeds, count)),
             ("nearest_neighbor_m".into(), mean(near.iter().sum(), near.len())),

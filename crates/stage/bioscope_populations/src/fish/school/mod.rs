@@ -4,8 +4,10 @@
 //! seabed, surface and rocks, splits round them and closes again, flees from large moving animals
 //! that it sees coming, is drawn on by a goal that wanders slowly through its home range, and is carried by
 //! the current. Each fish differs in size, color, pace and phase; it swims in bursts and glides, and
-//! its spine beats with the thrust that its motion asks for.
+//! its spine beats with the thrust that its motion asks for. Or it replays motion captured from the muscle-driven fish, and
+//! those nearest to an observer are driven by muscles.
 
+mod bodies;
 mod course;
 mod fish;
 mod inspection;

@@ -21,6 +21,16 @@ parameters! {
         burst_period: f32 = 1.6, "s", 0.1..=30.0, "choice";
         /// How many times longer than a fish of the school an animal must be to be fled from.
         threat_ratio: f32 = 4.0, "1", 1.0..=100.0, "choice";
+        /// 1 to replay motion captured from the muscle-driven fish, 0 to undulate by the gait of the species.
+        replayed: f32 = 0.0, "1", 0.0..=1.0, "choice";
+        /// With replay: how many, those nearest to the observer, are driven by their muscles.
+        driven: f32 = 0.0, "1", 0.0..=1000.0, "choice";
+        /// Place of the observer, east.
+        observer_x: f32 = 0.0, "m", -100_000.0..=100_000.0, "choice";
+        /// Place of the observer, up.
+        observer_y: f32 = 0.0, "m", -100_000.0..=100_000.0, "choice";
+        /// Place of the observer, south.
+        observer_z: f32 = 0.0, "m", -100_000.0..=100_000.0, "choice";
         /// Number of fishes whose heading and wish are shown.
         annotated: f32 = 3.0, "1", 0.0..=100.0, "choice";
     }

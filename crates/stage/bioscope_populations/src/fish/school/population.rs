@@ -7,10 +7,11 @@ use bioscope_core::{
 };
 use bioscope_crowds::{Flock, Goal, Home, Surroundings, statistics};
 use bioscope_geometry::{Batch, Transform};
-use bioscope_motion::undulation::spine_pose;
+use bioscope_motion::undulation::{Spine, spine_pose};
 use bioscope_world::{Growth, Inspection, Order, Population, Publication, View, no_such_order};
 use rayon::prelude::*;
 
+use super::bodies::{Bodies, Members};
 use super::course::Course;
 use super::fish::{Fish, Step};
 use super::threats::Lookout;
@@ -37,6 +38,9 @@ const LEAST_GROUP: f32 = 0.08;
 pub struct FishSchool {
     pub(super) options: FishSchoolOptions,
     pub(super) form: Arc<FishForm>,
+    pub(super) spine: Arc<Spine>,
+    /// Bodies that are more than a spine, if motion is replayed.
+    pub(super) bodies: Bodies,
     pub(super) flock: Flock,
     pub(super) fishes: Vec<Fish>,
     pub(super) course: Course,
@@ -64,8 +68,11 @@ impl FishSchool {
     pub fn new(options: FishSchoolOptions) -> Result<Self> {
         options.check()?;
         let home = options.home.unwrap_or(options.center);
+        let form = options.species.form();
         Ok(Self {
-            form: options.species.form(),
+            spine: Arc::new(form.spine.clone()),
+            bodies: Bodies::default(),
+            form,
             flock: Flock::new(options.flock.clone(), 0)?,
             fishes: Vec::new(),
             course: Course::starting(home),
@@ -102,6 +109,7 @@ impl FishSchool {
     fn let_go(&mut self, id: Id) {
         if let Some(index) = self.flock.ids().iter().position(|&one| one == id) {
             self.flock.remove(id);
+            self.bodies.forget(id);
             self.fishes.remove(index);
         }
     }
@@ -217,6 +225,34 @@ impl FishSchool {
         self.groups = groups;
     }
 
+    fn replays(&self) -> bool {
+        self.options.parameters.replayed >= 0.5
+    }
+
+    /// Beats and moves the bodies, if motion is replayed.
+    fn move_bodies(&mut self, view: &View) -> Result<()> {
+        if !self.replays() {
+            self.bodies = Bodies::default();
+            return Ok(());
+        }
+        let length = self.body_length();
+        let Self { flock, fishes, spine, scratch, .. } = self;
+        let mut members = Members { flock, fishes, spine, length, flows: &scratch.flows };
+        let parameters = &self.options.parameters;
+        self.bodies.advance(&mut members, parameters, view.environment, view.moment.dt)
+    }
+
+    /// Writes the pose of a fish and returns where it is.
+    fn pose(&self, index: usize, fish: &Fish, pose: &mut [Transform]) -> Transform {
+        if !self.replays() {
+            spine_pose(&self.spine, &fish.swim, pose);
+            return self.placement(index);
+        }
+        let speed = self.flock.velocities()[index].length() / (self.body_length() * fish.scale);
+        let who = (self.flock.ids()[index], fish, speed);
+        self.bodies.pose(&self.spine, who, pose).unwrap_or_else(|| self.placement(index))
+    }
+
     fn note_wishes(&mut self) {
         let shown = (self.options.parameters.annotated as usize).min(self.fishes.len());
         self.wishes = (0..shown).map(|index| self.flock.request(index)).collect();
@@ -240,8 +276,7 @@ impl FishSchool {
         let bodies = batch.poses.par_chunks_mut(joints).zip(&mut batch.transforms);
         bodies.zip(&self.fishes).enumerate().with_min_len(TASK).for_each(
             |(index, ((pose, placement), fish))| {
-                spine_pose(&self.form.spine, &fish.swim, pose);
-                *placement = self.placement(index);
+                *placement = self.pose(index, fish, pose);
             },
         );
         batch
@@ -338,6 +373,7 @@ impl Population for FishSchool {
         self.prepare(dt);
         self.note_wishes();
         self.with_surroundings(view, |flock, surroundings| flock.advance(dt, surroundings))?;
+        self.move_bodies(view)?;
         self.follow(dt);
         let cruise = self.flock.parameters.cruise_speed * self.body_length();
         let SchoolParameters { goal_pace, home_radius, .. } = self.options.parameters;

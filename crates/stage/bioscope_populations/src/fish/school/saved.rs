@@ -1,7 +1,10 @@
+use std::sync::Arc;
+
 use bioscope_core::{Error, Result, Vec3, state};
 use bioscope_crowds::Flock;
 use serde::{Deserialize, Serialize};
 
+use super::bodies::Bodies;
 use super::course::Course;
 use super::fish::Fish;
 use super::population::Scratch;
@@ -22,6 +25,7 @@ struct State {
     parameters: SchoolParameters,
     flock: Vec<u8>,
     fishes: Vec<Fish>,
+    bodies: Vec<u8>,
     course: Course,
     groups: usize,
     regrouped_from: Option<usize>,
@@ -49,8 +53,12 @@ impl FishSchool {
             parameters: state.parameters,
         };
         options.check()?;
+        let form = options.species.form();
+        let spine = Arc::new(form.spine.clone());
         Ok(Self {
-            form: options.species.form(),
+            bodies: Bodies::restore(&spine, &state.bodies)?,
+            form,
+            spine,
             flock,
             fishes: state.fishes,
             course: state.course,
@@ -75,6 +83,7 @@ impl FishSchool {
             parameters: options.parameters.clone(),
             flock: self.flock.save(),
             fishes: self.fishes.clone(),
+            bodies: self.bodies.save()?,
             course: self.course,
             groups: self.groups,
             regrouped_from: self.regrouped_from,
