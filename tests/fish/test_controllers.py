@@ -121,6 +121,26 @@ def test_fins_against_each_other_roll_and_turn():
     assert still.yaw > np.radians(60)
 
 
+@pytest.mark.capability("TF-037")
+@pytest.mark.parametrize("degrees", [30, 60, 90, -60])
+def test_a_turn_is_a_fast_bend_and_a_slow_recovery_that_keeps_the_heading(degrees):
+    tank = cruising()
+    tank.feedback(False)
+    tank.glide()
+    tank.run(0.5)
+    yaws, bends = [tank.yaw], []
+    tank.turn(np.radians(degrees))
+    while tank.turning:
+        tank.step()
+        yaws.append(tank.yaw)
+        bends.append(tank.contraction[:4].max())
+    angles = np.abs(np.degrees(np.unwrap(yaws) - yaws[0]))[1:]
+    deepest = np.flatnonzero(bends >= max(bends) - 1e-4)
+    first, recovery = int(deepest[0]), int(deepest[-1])
+    assert len(bends) - recovery > 3 * (first + 1), "the recovery is the slow part"
+    assert abs(angles[-1] - angles[recovery]) < 0.2 * angles[-1]
+
+
 @pytest.mark.capability("TF-036")
 def test_a_u_turn_is_made_of_parts():
     angle = np.degrees(turned(cruising(), np.pi))

@@ -25,6 +25,36 @@ def test_a_replayed_fish_swims_as_the_muscle_driven_one_does():
     assert abs(swings[1] - swings[0]) < 0.05 * length
 
 
+@pytest.mark.capability("AA-403")
+def test_a_segment_is_a_rigid_motion_and_a_deformation_that_make_the_nodes_again():
+    tank = bio.fish.Tank("anthias")
+    tank.swim(tank.cruise)
+    tank.run(3)
+    places, begun = [], tank.center
+
+    def control(tank: bio.fish.Tank) -> None:
+        places.append(tank.nodes)
+        if len(places) == 40:
+            tank.turn(np.pi / 2)
+
+    segment = bio.fish.capture(tank, 3.0, control)
+    recorded = np.array([*places, tank.nodes])
+    nodes = segment.nodes()
+    assert nodes.shape == recorded.shape
+    assert np.abs(nodes - recorded).max() < 1e-6
+    # The deformation holds nothing of the way, the frame nothing of the beat but its sway.
+    local = segment.deformations
+    ahead = local[:, 1:5].mean(axis=1) - local[:, 9:13].mean(axis=1)
+    assert np.abs(local.mean(axis=1)).max() < 1e-9
+    assert np.abs(np.arctan2(ahead[:, 0], ahead[:, 2])).max() < 1e-9
+    assert np.ptp(local, axis=0).max() < 0.6 * tank.length
+    assert np.degrees(segment.yaws[-1] - segment.yaws[0]) == pytest.approx(90, abs=25)
+    assert np.linalg.norm(segment.centers[-1] - begun) > 2 * tank.length
+    for wrong in (np.zeros((0, 23, 3)), np.zeros((4, 22, 3)), np.full((2, 23, 3), np.nan)):
+        with pytest.raises(bio.BioscopeError, match="nodes"):
+            bio.fish.Segment.split(wrong, 0.01)
+
+
 def joints(world: bio.World) -> np.ndarray:
     """Places (n, j, 3) of the joints of all fishes of the first batch in the world, metres."""
     batch = world.scene.batches[0]

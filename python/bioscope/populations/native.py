@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import msgspec
 
 from bioscope import _engine
+from bioscope.errors import InvalidValueError
 from bioscope.world.population import Native
 
 
@@ -29,4 +31,16 @@ class Asked(Native):
 def asked_text(options: dict[str, Any], **always: Any) -> str:
     """Return options as the engine reads them; those that are none are left to the engine."""
     said = {name: value for name, value in options.items() if value is not None} | always
+    for name, value in said.items():
+        if not _finite(value):
+            # JSON has no word for it, so the engine could not tell which it was.
+            msg = f"{name} = {value}: expected finite numbers"
+            raise InvalidValueError(msg)
     return msgspec.json.encode(said).decode()
+
+
+def _finite(value: Any) -> bool:
+    """Say whether all numbers in a value are finite."""
+    if isinstance(value, (list, tuple)):
+        return all(_finite(one) for one in value)
+    return not isinstance(value, float) or math.isfinite(value)
