@@ -1,3 +1,5 @@
+use std::sync::OnceLock;
+
 use bioscope_core::{Error, Result, Vec3};
 use serde::{Deserialize, Serialize};
 
@@ -14,6 +16,23 @@ pub struct Terrain {
     pub columns: usize,
     /// Heights in metres, row by row along x, rows along z.
     pub heights: Vec<f32>,
+    /// Bounds of those heights, made when they are asked for first.
+    #[serde(skip)]
+    summits: Summits,
+}
+
+/// Cells along the side of a block of [`Summits`].
+const BLOCK: usize = 8;
+
+/// The greatest height of each block of cells, row by row; follows from the heights, so that it never differs where those are
+/// equal.
+#[derive(Clone, Debug, Default)]
+struct Summits(OnceLock<Vec<f32>>);
+
+impl PartialEq for Summits {
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
 }
 
 impl Terrain {
@@ -29,7 +48,7 @@ impl Terrain {
         if let Some(index) = heights.iter().position(|height| !height.is_finite()) {
             return Err(Error::value(format!("heights[{index}]"), heights[index], "finite metres"));
         }
-        Ok(Self { origin, spacing, columns, heights })
+        Ok(Self { origin, spacing, columns, heights, summits: Summits::default() })
     }
 
     /// Samples along z.
@@ -46,6 +65,36 @@ impl Terrain {
         let near = self.heights[first] * (1.0 - u) + self.heights[first + 1] * u;
         let far = self.heights[second] * (1.0 - u) + self.heights[second + 1] * u;
         near * (1.0 - v) + far * v
+    }
+
+    /// A height in metres that the ground nowhere rises above between two corners (x, z) of a rectangle; found from the greatest
+    /// heights of blocks of 8 by 8 cells, so it is quick but not the least such height.
+    pub fn bound(&self, low: [f32; 2], high: [f32; 2]) -> f32 {
+        let (columns, rows) = (self.columns - 1, self.rows() - 1);
+        let summits = self.summits.0.get_or_init(|| self.summits_of(columns, rows));
+        let block = |place: f32, origin: f32, cells: usize| {
+            let place = ((place - origin) / self.spacing).clamp(0.0, (cells - 1) as f32);
+            place as usize / BLOCK
+        };
+        let xs = [low, high].map(|corner| block(corner[0], self.origin[0], columns));
+        let zs = [low, high].map(|corner| block(corner[1], self.origin[1], rows));
+        let across = columns.div_ceil(BLOCK);
+        let blocks = (zs[0]..=zs[1]).flat_map(|row| &summits[row * across..][xs[0]..=xs[1]]);
+        blocks.fold(f32::NEG_INFINITY, |greatest, &one| greatest.max(one))
+    }
+
+    fn summits_of(&self, columns: usize, rows: usize) -> Vec<f32> {
+        let mut summits = Vec::new();
+        for row in (0..rows).step_by(BLOCK) {
+            for column in (0..columns).step_by(BLOCK) {
+                // The samples on the far rim belong to its last cells.
+                let (last_row, last) = ((row + BLOCK).min(rows), (column + BLOCK).min(columns));
+                let samples = (row..=last_row)
+                    .flat_map(|row| &self.heights[row * self.columns..][column..=last]);
+                summits.push(samples.fold(f32::NEG_INFINITY, |a, &b| a.max(b)));
+            }
+        }
+        summits
     }
 
     /// Unit normal of the ground at (x, z), from central differences one sample wide.
@@ -100,6 +149,25 @@ mod tests {
         let mesh = terrain.mesh(1.0);
         let [a, b, c] = mesh.triangles[0].map(|index| mesh.positions[index as usize]);
         assert!((b - a).cross(c - a).y > 0.0);
+    }
+
+    #[test]
+    fn the_ground_stays_below_its_bound() {
+        let heights = (0..40 * 23).map(|index| ((index * 7919) % 101) as f32 * 0.1).collect();
+        let terrain = Terrain::new([-3.0, 2.0], 0.5, 40, heights).unwrap();
+        assert_eq!(terrain.bound([-9.0; 2], [99.0; 2]), 10.0);
+        for corner in 0..40 {
+            let low = [-5.0 + 0.6 * corner as f32, 1.0 + 0.3 * corner as f32];
+            let high = [low[0] + 1.7, low[1] + 0.9];
+            let bound = terrain.bound(low, high);
+            for step in 0..=100 {
+                let [x, z] = [0, 1].map(|axis| {
+                    let share = if axis == 0 { step % 10 } else { step / 10 } as f32 / 10.0;
+                    low[axis] + share * (high[axis] - low[axis])
+                });
+                assert!(terrain.height(x, z) <= bound + 1e-5, "{x} {z}");
+            }
+        }
     }
 
     #[test]

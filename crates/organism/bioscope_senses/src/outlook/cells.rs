@@ -73,35 +73,50 @@ impl Cells {
                 let cell = |place: f32| coordinate(place, edge);
                 cell(center[axis] - radius)..=cell(center[axis] + radius)
             };
-            let (xs, ys, zs) = (span(0), span(1), span(2));
-            let rows = (ys.end() - ys.start() + 1) * (zs.end() - zs.start() + 1);
-            if rows > 256 {
-                // More rows to look up than is worth it: all of this size.
-                self.run(
-                    code(octave, 0, 0, 0),
-                    code(octave, GREATEST, GREATEST, GREATEST),
-                    &mut visit,
-                );
-                continue;
-            }
-            for z in zs {
-                for y in ys.clone() {
-                    let (first, last) =
-                        (code(octave, z, y, *xs.start()), code(octave, z, y, *xs.end()));
-                    self.run(first, last, &mut visit);
-                }
-            }
+            self.visit_box(octave, [span(0), span(1), span(2)], &mut visit);
         }
     }
 
-    fn run(&self, first: u64, last: u64, visit: &mut impl FnMut(&Thing)) {
-        let start = self.keys.partition_point(|&key| key < first);
-        for index in start..self.keys.len() {
-            if self.keys[index] > last {
-                break;
-            }
-            visit(&self.things[index]);
+    /// Visits the things in a box of cells. In the sorted list those are runs, one for each row of cells that is not empty; a
+    /// step forward that doubles until it is too long finds the next one, so that empty rows cost nothing.
+    fn visit_box(
+        &self,
+        octave: i32,
+        [xs, ys, zs]: [RangeInclusive<i64>; 3],
+        visit: &mut impl FnMut(&Thing),
+    ) {
+        let corner = |z: i64, y: i64, x: i64| code(octave, z, y, x);
+        let last = corner(*zs.end(), *ys.end(), *xs.end());
+        let mut next = corner(*zs.start(), *ys.start(), *xs.start());
+        let mut index = self.keys.partition_point(|&key| key < next);
+        while let Some(&key) = self.keys.get(index).filter(|&&key| key <= last) {
+            let [z, y, x] = [2, 1, 0].map(|axis| ((key >> (axis * BITS)) as i64) & GREATEST);
+            next = if y < *ys.start() {
+                corner(z, *ys.start(), *xs.start())
+            } else if y > *ys.end() {
+                corner(z + 1, *ys.start(), *xs.start())
+            } else if x < *xs.start() {
+                corner(z, y, *xs.start())
+            } else if x > *xs.end() {
+                corner(z, y + 1, *xs.start())
+            } else {
+                visit(&self.things[index]);
+                index += 1;
+                continue;
+            };
+            index = self.seek(index, next);
         }
+    }
+
+    /// Index of the first key not below `wanted`, at or after `from`, whose key is below it.
+    fn seek(&self, from: usize, wanted: u64) -> usize {
+        let (mut low, mut step) = (from, 1);
+        while self.keys.get(low + step).is_some_and(|&key| key < wanted) {
+            low += step;
+            step *= 2;
+        }
+        let end = (low + step).min(self.keys.len());
+        low + self.keys[low..end].partition_point(|&key| key < wanted)
     }
 }
 
@@ -117,7 +132,8 @@ fn key(thing: &Thing) -> u64 {
 
 fn code(octave: i32, z: i64, y: i64, x: i64) -> u64 {
     let octave = (octave + OCTAVE_ZERO) as u64;
-    (((((octave << BITS) | z as u64) << BITS) | y as u64) << BITS) | x as u64
+    // Sums, so that the cell after the last of a row is the first of the next row.
+    (((((octave << BITS) + z as u64) << BITS) + y as u64) << BITS) + x as u64
 }
 
 /// Power of two at or above a size in metres: sizes in (2^(n-1), 2^n] are of octave n. From 2^-30 to 2^20.

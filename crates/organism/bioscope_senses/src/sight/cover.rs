@@ -17,6 +17,8 @@ pub(super) struct Cover<'a> {
     /// Solids within that distance, with their distance from the eye.
     solids: Vec<(f32, &'a Obstacle)>,
     terrain: Option<&'a Terrain>,
+    /// Height that the ground does not rise above within that distance, metres.
+    summit: f32,
 }
 
 impl<'a> Cover<'a> {
@@ -24,7 +26,11 @@ impl<'a> Cover<'a> {
     pub fn new(surroundings: &Surroundings<'a>, eye: Vec3, reach: f32) -> Self {
         let distances = surroundings.obstacles.iter().map(|one| (one.distance(eye), one));
         let solids = distances.filter(|&(distance, _)| distance <= reach).collect();
-        Self { eye, solids, terrain: surroundings.terrain }
+        let terrain = surroundings.terrain;
+        let summit = terrain.map_or(f32::NEG_INFINITY, |terrain| {
+            terrain.bound([eye.x - reach, eye.z - reach], [eye.x + reach, eye.z + reach])
+        });
+        Self { eye, solids, terrain, summit }
     }
 
     /// Points of the nearest solids within `reach` metres that are nearest to the eye, in the world.
@@ -59,6 +65,12 @@ impl<'a> Cover<'a> {
     /// Whether the ground rises over the way to a point.
     fn below(&self, terrain: &Terrain, near: Vec3, lift: f32) -> bool {
         const MOST_SAMPLES: f32 = 16.0;
+        let (low, high) = (self.eye.min(near), self.eye.max(near));
+        if low.y + lift >= self.summit
+            || low.y + lift >= terrain.bound([low.x, low.z], [high.x, high.z])
+        {
+            return false;
+        }
         let samples = (self.eye.distance(near) / terrain.spacing * 2.0).clamp(2.0, MOST_SAMPLES);
         let samples = samples as u16;
         (1..samples).any(|step| {

@@ -111,6 +111,11 @@ fn ground_ahead(
     reach: f32,
     clearance: f32,
 ) -> Option<Obstacle> {
+    let end = origin + heading * reach;
+    let (low, high) = (origin.min(end), origin.max(end));
+    if low.y - clearance >= terrain.bound([low.x, low.z], [high.x, high.z]) {
+        return None;
+    }
     let meets = (0..=GROUND_SAMPLES)
         .map(|step| origin + heading * (reach * f32::from(step) / f32::from(GROUND_SAMPLES)));
     // Ground that the course leaves or follows is no obstacle, however near.
