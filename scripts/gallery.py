@@ -59,9 +59,6 @@ def main() -> None:
 def grown(name: str) -> list[_engine.Mesh]:
     """Return the plant at several ages, without those at which it shows nothing yet."""
     system = gallery.read(name)
-    if system.environment:
-        # Its surroundings belong to a world; alone it does not grow as it should.
-        return []
     steps = np.unique(np.linspace(1, system.steps, STAGES).round().astype(int))
     meshes = [shape(name, system, int(step)) for step in steps]
     return [one for one in meshes if len(one.triangles)]

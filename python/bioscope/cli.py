@@ -310,19 +310,41 @@ def derive(
 @command("grow", "bioscope grow maple -o maple.glb --seed 3")
 @model_name
 @path_option(
-    "-o", "--output", required=True, metavar="FILE.glb|.obj|.usdc|.png", help="What to write."
+    "-o", "--output", required=True, metavar="FILE.glb|.obj|.usdc|.png|.mp4", help="What to write."
 )
 @steps_option
 @click.option("--seed", type=click.IntRange(0, 2**64 - 1), default=1, help="Seed.")
-def grow(model: str, output: Path, steps: int | None, seed: int) -> None:
-    """Grow a plant and write its shape.
+@path_option(
+    "--view", metavar="FILE.v", help="View file: functions, surfaces, the turtle's angles."
+)
+@click.option("--environment", metavar="NAME [P=X…]|FILE.e", help="What surrounds the plant.")
+@path_option(
+    "--colors", metavar="FILE.map|.mat|.colors", help="Colours, if not those beside MODEL."
+)
+@seconds_option(8.0)
+@click.option("--size", metavar="WxH", default="960x960", help="Pixels of a film.")
+def grow(
+    model: str, output: Path, steps: int | None, seed: int, seconds: float, size: str, **files: Any
+) -> None:
+    """Grow a plant and write its shape, or with .mp4 a film of its growth.
 
     MODEL is a file (bush.l, ./bush) or, without folder and ending, a name from `bioscope list`.
     """
-    from bioscope.lsystem.specimen import grow as grow_plant
     from bioscope.populations.plants import model_path
 
-    mesh = grow_plant(model_path(model), output, steps, seed)
+    path = model_path(model)
+    if output.suffix == ".mp4":
+        from bioscope.film import parse_size
+        from bioscope.lsystem.growth import film_growth
+
+        if any(files.values()):
+            raise click.UsageError("--view, --environment, --colors: for shapes, not for films")
+        pixels = parse_size(size)
+        film_growth(path, output, seconds=seconds, size=pixels, steps=steps, seed=seed, say=say)
+        return
+    from bioscope.lsystem.specimen import grow as grow_plant
+
+    mesh = grow_plant(path, output, steps, seed, **files)
     say(f"{output}: {len(mesh.triangles)} triangles")
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -12,7 +12,7 @@ from bioscope import _engine
 from bioscope.errors import FormatError, InvalidValueError
 from bioscope.files import written_whole
 from bioscope.lsystem.lsystem import LSystem
-from bioscope.lsystem.turtle import Turtle
+from bioscope.lsystem.turtle import Turtle, read_colors
 from bioscope.world import Population, World
 
 if TYPE_CHECKING:
@@ -21,16 +21,27 @@ if TYPE_CHECKING:
     from bioscope._engine import Mesh, Publication
 
 SUFFIXES = (".glb", ".obj", ".usdc", ".usda", ".png")
-VIEW_ANGLE = math.radians(30)
+VIEW_DEGREES = 30.0
+VIEW_ANGLE = math.radians(VIEW_DEGREES)
 VIEW_LIMITS = (16, 4096)
 FLOOR = (0.50, 0.48, 0.44)
 HAZELESS = 20.0
 """Size in metres from which haze would hide what is far away."""
-LIGHT: dict[str, float] = {}
 
 
-def grow(path: Path, output: Path, steps: int | None, seed: int) -> Mesh:
+def grow(path: Path, output: Path, steps: int | None, seed: int | None, **files: Any) -> Mesh:
     """Grow the plant of a model file and write its shape; return the mesh.
+
+    Parameters
+    ----------
+    path, output
+        The L-system file; what to write.
+    steps, seed
+        As many steps as the file says, if not given; a file of the cpfg dialect without a seed
+        gives the plant of the reference program.
+    **files
+        `view` (a .v file), `environment` (a name with parameters, or an .e file) and `colors`
+        (a .map, .mat or .colors file), as cpfg takes them.
 
     Raises
     ------
@@ -40,11 +51,9 @@ def grow(path: Path, output: Path, steps: int | None, seed: int) -> Mesh:
         If the model is wrong, or draws nothing.
     """
     if output.suffix not in SUFFIXES:
-        raise InvalidValueError(f"{output}: expected a name that ends in {', '.join(SUFFIXES)}")
-    string = LSystem.read(path).derive(steps, seed)
-    mesh = Turtle().interpret(string).mesh(palette=palette_beside(path))
-    if len(mesh.triangles) == 0:
-        raise FormatError(f"{path}: nothing to see: the turtle draws neither strokes nor surfaces")
+        known = ", ".join((*SUFFIXES, ".mp4"))
+        raise InvalidValueError(f"{output}: expected a name that ends in {known}")
+    mesh = shape(path, LSystem.read(path), steps, seed, **files)
     if output.suffix == ".obj":
         _write_obj(output, mesh)
     elif output.suffix == ".png":
@@ -52,9 +61,37 @@ def grow(path: Path, output: Path, steps: int | None, seed: int) -> Mesh:
     else:
         from bioscope.export import export_world
 
-        world = World(seed=seed, title=path.stem)
+        world = World(seed=seed or 0, title=path.stem)
         world.add(Specimen(mesh, path.stem))
         export_world(world, output, world.dt, 1 / world.dt, say=lambda *_: None)
+    return mesh
+
+
+def shape(
+    path: Path,
+    system: LSystem,
+    steps: int | None,
+    seed: int | None,
+    *,
+    view: Path | None = None,
+    environment: str | None = None,
+    colors: Path | None = None,
+) -> Mesh:
+    """Return the mesh of a plant after so many steps; for the files see `grow`.
+
+    Raises
+    ------
+    FormatError
+        If the model cannot be derived, or draws nothing.
+    """
+    given = {"view": view, "environment": environment}
+    options = {name: value for name, value in given.items() if value is not None}
+    drawn = Turtle(view).interpret(system.derive(steps, seed, **options))
+    is_table = colors is not None and colors.suffix != ".colors"
+    palette = read_colors(colors) if colors and is_table else palette_beside(colors or path)
+    mesh = drawn.mesh(palette=palette)
+    if len(mesh.triangles) == 0:
+        raise FormatError(f"{path}: nothing to see: the turtle draws neither strokes nor surfaces")
     return mesh
 
 
@@ -135,15 +172,17 @@ def portrait(mesh: Mesh, width: int, height: int, *, full: Mesh | None = None) -
     points, size = points * np.float32(scale), size * scale
     low, high = points.min(axis=0), points.max(axis=0)
     world = World(seed=1, title="specimen")
-    world.environment.set(**LIGHT)
     world.add(Specimen(mesh, "specimen", scale))
-    world.add(Specimen(_floor((low + high) / 2, float(low[1]), size), "floor"))
-    camera = _camera(points, width / height)
-    return _engine.Rasterizer(picture=True).picture(world.scene, camera, width, height)
+    world.add(Specimen(floor((low + high) / 2, float(low[1]), size), "floor"))
+    view = _engine.Camera.looking_at(*camera(points, width / height), VIEW_ANGLE)
+    return _engine.Rasterizer(picture=True).picture(world.scene, view, width, height)
 
 
-def _camera(points: NDArray[np.float32], aspect: float) -> _engine.Camera:
-    """Return the nearest camera of a fixed direction that sees all points."""
+Place = tuple[float, float, float]
+
+
+def camera(points: NDArray[np.float32], aspect: float) -> tuple[Place, Place]:
+    """Return place and target of the nearest camera of a fixed direction that sees all points."""
     middle = (points.min(axis=0) + points.max(axis=0)) / 2
     back = np.array([0.30, 0.16, 0.94]) / np.linalg.norm([0.30, 0.16, 0.94])
     right = np.cross([0.0, 1.0, 0.0], back)
@@ -160,19 +199,16 @@ def _camera(points: NDArray[np.float32], aspect: float) -> _engine.Camera:
         float((reach + np.abs(away @ right) / (rise * aspect)).max()),
         1e-3,
     )
-    place = middle + back * distance
-    return _engine.Camera.looking_at(
-        (float(place[0]), float(place[1]), float(place[2])),
-        (float(middle[0]), float(middle[1]), float(middle[2])),
-        VIEW_ANGLE,
-    )
+    x, y, z = (middle + back * distance).tolist()
+    to_x, to_y, to_z = middle.tolist()
+    return (x, y, z), (to_x, to_y, to_z)
 
 
 def _mid(values: NDArray[np.float64]) -> float:
     return float(values.min() + values.max()) / 2
 
 
-def _floor(middle: NDArray[np.float32], level: float, size: float) -> Mesh:
+def floor(middle: NDArray[np.float32], level: float, size: float) -> Mesh:
     """Return a pale disc below a plant, large enough to reach the horizon."""
     rings = np.array([0.0, 0.5, 1.0, 2.0, 4.0, 10.0, 40.0, 200.0]) * max(size, 1e-3)
     corners = 48

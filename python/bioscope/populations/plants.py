@@ -86,7 +86,8 @@ class Plants(Asked):
     turned
         Whether each plant looks in another direction.
     unfold
-        Whether what is new in a step unfolds while it lasts: for models of few large steps.
+        Whether plants turn into what a step makes of them while it lasts, rather than at once: for
+        models of few large steps.
     colors
         A file of colours; the one beside the model if not given.
     **parameters

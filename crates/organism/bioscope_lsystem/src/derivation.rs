@@ -12,10 +12,12 @@ mod error;
 mod exchange;
 mod expansion;
 mod fragments;
+mod lineage;
 mod options;
 mod parallel;
 mod pass;
 mod progress;
+mod showing;
 mod timed;
 
 use std::{
@@ -26,10 +28,12 @@ use std::{
 use cuts::without_cut_branches;
 pub use error::{DerivationError, Limits};
 pub use fragments::Fragment;
+pub use lineage::{Lineage, Shown};
 pub use options::DerivationOptions;
 use parallel::Space;
 use pass::{Layer, Made, Task};
 pub use progress::{Placed, Progress};
+use showing::Noted;
 
 use crate::{
     Alphabet, LSystem, ModuleString,
@@ -75,31 +79,10 @@ impl LSystem {
         }
         derivation.finish()
     }
-
-    /// What the modules of a string look like: the string after the productions of the file's
-    /// `homomorphism:` part, or the string itself if there is none.
-    pub fn appearance(
-        &self,
-        string: &ModuleString,
-        seed: impl Into<Option<u64>>,
-    ) -> Derived<ModuleString> {
-        let is_plain = self.systems.iter().all(|system| system.homomorphism.is_none());
-        if is_plain && self.timing.is_none() {
-            return Ok(string.clone());
-        }
-        let options = DerivationOptions { seed: seed.into(), ..Default::default() };
-        let mut derivation = Derivation::begin(self, options);
-        if let Some(memory) = &string.memory {
-            derivation.machine.recall(memory);
-            derivation.step = memory.step;
-        }
-        Ok(derivation.shown(string, None)?.0)
-    }
 }
 
 /// Tells the random numbers of the parts of a step apart.
 const REWRITING: u64 = 0;
-const APPEARANCE: u64 = 2 << 20;
 /// How many instructions of loops a model may run: a few seconds.
 const LOOPS: u64 = 2_000_000_000;
 /// What a step costs at least, in operations.
@@ -231,6 +214,16 @@ impl<'a> Derivation<'a> {
 
     /// Makes one step.
     pub fn advance(&mut self) -> Derived<()> {
+        self.make_step(false).map(drop)
+    }
+
+    /// Makes one step; what has become of each module. Nothing is known of those of timed models.
+    pub fn advance_traced(&mut self) -> Derived<Lineage> {
+        self.make_step(true)
+    }
+
+    fn make_step(&mut self, traced: bool) -> Derived<Lineage> {
+        let mut lineage = Lineage::default();
         self.step += 1;
         self.machine.begin_step(self.step);
         for part in &self.system.systems {
@@ -238,14 +231,17 @@ impl<'a> Derivation<'a> {
         }
         let is_cut = |&kind: &u8| matches!(kind, Alphabet::CUT | Alphabet::REPORTED_CUT);
         if self.system.is_own() && self.string.kinds.iter().any(is_cut) {
-            self.string = without_cut_branches(&self.string);
+            let (kept, numbers) = without_cut_branches(&self.string);
+            self.string = kept;
+            lineage.old_numbers(numbers);
         }
         let system = self.system;
         if let Some(timing) = &system.timing {
             let set = self.table(&system.systems[0])?;
             self.grow_older(timing, set)?;
         } else {
-            let mut next = self.rewritten()?;
+            let mut next = self.rewritten(traced)?;
+            lineage.note(&next.notes);
             std::mem::swap(&mut self.string.kinds, &mut next.kinds);
             std::mem::swap(&mut self.string.parameters, &mut next.parameters);
             self.space.whole = next;
@@ -255,7 +251,7 @@ impl<'a> Derivation<'a> {
         }
         self.exchange()?;
         self.remember();
-        Ok(())
+        Ok(lineage)
     }
 
     /// Ends the derivation: runs the end blocks of the file, and writes its files out.
@@ -274,20 +270,8 @@ impl<'a> Derivation<'a> {
         Ok((self.string, self.machine.output.text))
     }
 
-    /// What the string looks like now: after the productions of the `homomorphism:` part.
-    pub fn appearance(&self) -> Derived<ModuleString> {
-        let mut show = Self::begin(
-            self.system,
-            DerivationOptions { seed: self.options.seed, ..Default::default() },
-        );
-        show.machine.recall(&self.machine.memory(self.step));
-        show.machine.functions = self.machine.functions.clone();
-        show.step = self.step;
-        Ok(show.shown(&self.string, None)?.0)
-    }
-
     /// What becomes of the string in this step.
-    fn rewritten(&mut self) -> Derived<Made> {
+    fn rewritten(&mut self, traced: bool) -> Derived<Made> {
         let mut layers = Vec::new();
         for system in &self.system.systems {
             let set = self.table(system)?;
@@ -306,6 +290,7 @@ impl<'a> Derivation<'a> {
             tick: (self.step << 22) | REWRITING,
             shows: false,
             noted: None,
+            traced,
             only: None,
         };
         let looked = self.operations + STEP_COST;
@@ -354,55 +339,6 @@ impl<'a> Derivation<'a> {
             (false, true) if !self.system.is_own() => Choice::Weighted,
             (false, _) => Choice::FirstOrWeighted,
         }
-    }
-
-    /// What a string looks like; with the numbers of noted modules in that and in the string.
-    fn shown(
-        &mut self,
-        string: &ModuleString,
-        noted: Option<&[bool]>,
-    ) -> Derived<(ModuleString, Vec<(usize, usize)>)> {
-        let nothing = ProductionSet::new(Vec::new(), 1);
-        let grown = self.grown(string);
-        let string = &grown;
-        let systems = self.system.systems.iter();
-        let layers: Vec<Layer> = systems
-            .map(|system| Layer {
-                system,
-                set: &nothing,
-                decomposition: system.homomorphism.as_ref(),
-            })
-            .collect();
-        let groups = Groups::default();
-        let task = Task {
-            string,
-            groups: &groups,
-            layers: &layers,
-            arities: &self.arities,
-            choice: match self.choice() {
-                // What has no production draws no number here.
-                Choice::Reference => Choice::First,
-                other => other,
-            },
-            limits: self.options.limits,
-            deadline: self.deadline,
-            step: self.step,
-            tick: (self.step << 22) | APPEARANCE,
-            shows: true,
-            noted,
-            only: None,
-        };
-        let (made, looked) = parallel::one_after_the_other(
-            task,
-            &mut self.machine,
-            self.operations,
-            Made::default(),
-        )?;
-        self.operations = looked;
-        let mut shown = ModuleString::new(self.system.alphabet.clone());
-        shown.kinds = made.kinds;
-        shown.parameters = made.parameters;
-        Ok((shown, made.notes))
     }
 
     fn block(&mut self, program: &Program, name: &str) -> Derived<()> {

@@ -10,7 +10,6 @@ mod layout;
 mod palette;
 mod patches;
 mod skeleton;
-mod unfolding;
 
 use std::collections::BTreeMap;
 
@@ -19,7 +18,6 @@ use bioscope_geometry::Mesh;
 
 pub use palette::Palette;
 pub use skeleton::{Held, PlantShape, SkeletonOptions};
-pub use unfolding::Young;
 
 use crate::interpretation::Contour;
 use crate::{Interpretation, Tessellation, files::ContourVertex};

@@ -24,7 +24,8 @@ mod string;
 mod turtle;
 
 pub use derivation::{
-    Derivation, DerivationError, DerivationOptions, Fragment, Limits, Placed, Progress,
+    Derivation, DerivationError, DerivationOptions, Fragment, Limits, Lineage, Placed, Progress,
+    Shown,
 };
 pub use diagnostic::{Diagnostic, Diagnostics, Place};
 pub use environment::{
@@ -39,7 +40,7 @@ pub use files::{
     read_color_map, read_materials,
 };
 pub use functions::Functions;
-pub use geometry::{Held, MeshOptions, Palette, PlantShape, SkeletonOptions, Young};
+pub use geometry::{Held, MeshOptions, Palette, PlantShape, SkeletonOptions};
 pub use interpretation::{
     Anchor, Axis, Ball, Basis, Contour, Disc, Interpretation, Label, Patch, Polygon, Segment,
     Surface,
@@ -47,5 +48,5 @@ pub use interpretation::{
 pub use model::{Alphabet, LSystem, ModuleKind};
 pub use string::ModuleString;
 pub use turtle::{
-    Conventions, Frame, Movement, Pose, SharedPart, SharedPlant, Turtle, TurtleOptions,
+    Between, Conventions, Frame, Movement, Pose, SharedPart, SharedPlant, Turtle, TurtleOptions,
 };

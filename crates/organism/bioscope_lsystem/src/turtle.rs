@@ -41,6 +41,7 @@
 //! R. Měch, *CPFG version 4.0 user's manual* (2005), section 5.1.9.
 
 mod axes;
+mod between;
 mod command;
 mod draw;
 mod options;
@@ -61,6 +62,7 @@ use spline::Spline;
 use state::{MOVEMENTS, State};
 
 pub use axes::Frame;
+pub use between::Between;
 pub use options::{Conventions, Movement, TurtleOptions};
 pub use sharing::{SharedPart, SharedPlant};
 pub(crate) use stances::Stance;
@@ -106,6 +108,8 @@ pub struct Turtle<'a> {
     skipped: Option<usize>,
     angles: [(u32, Angle); ANGLES],
     angle: Angle,
+    /// How much of itself the present module is: what is only just growing is smaller.
+    growing: f32,
     out: Interpretation,
 }
 
@@ -143,6 +147,7 @@ impl<'a> Turtle<'a> {
             skipped: None,
             angles: [(u32::MAX, Angle::HALF_TURN); ANGLES],
             angle: Angle::of_degrees(options.angle, round),
+            growing: 1.0,
             out: Interpretation { shapes: options.shapes.clone(), ..Interpretation::default() },
         }
     }
@@ -219,7 +224,8 @@ impl<'a> Turtle<'a> {
             Command::Width(sign) => {
                 let step = sign * self.options.width_step * self.state.scale;
                 let width = first.map(|width| width * self.state.scale);
-                self.state.width = width.unwrap_or(self.state.width + step).max(0.0);
+                self.state.width =
+                    (width.unwrap_or(self.state.width + step) * self.growing).max(0.0);
             }
             Command::Color(change) => self.color(change, first),
             Command::Corner if self.polygons.is_empty() => self.control_point(first),
@@ -335,7 +341,11 @@ impl<'a> Turtle<'a> {
     }
 
     fn rotate(&mut self, command: Command, degrees: Option<f32>) {
-        let angle = degrees.map_or(self.angle, |degrees| self.angle_of(degrees));
+        let angle = match degrees {
+            None if self.growing == 1.0 => self.angle,
+            None => self.angle_of(self.options.angle * self.growing),
+            Some(degrees) => self.angle_of(degrees * self.growing),
+        };
         let signed = |sign: f32| if sign < 0.0 { angle.reversed() } else { angle };
         match command {
             Command::Turn(sign) => self.state.axes.turn(signed(sign)),
@@ -398,7 +408,8 @@ impl<'a> Turtle<'a> {
     }
 
     fn length(&self, first: Option<f32>) -> f64 {
-        f64::from(first.unwrap_or(self.options.step)) * f64::from(self.state.scale)
+        let length = first.unwrap_or(self.options.step) * self.growing;
+        f64::from(length) * f64::from(self.state.scale)
     }
 
     fn color(&mut self, change: i32, first: Option<f32>) {

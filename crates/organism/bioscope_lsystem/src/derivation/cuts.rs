@@ -5,13 +5,14 @@ use crate::{Alphabet, ModuleString, context::Place};
 /// The parameter of a timed cut that removes the whole branch.
 const BRANCH: f32 = 100.0;
 
-/// The string without what follows each `%` up to the end of its branch.
-pub(super) fn without_cut_branches(string: &ModuleString) -> ModuleString {
+/// The string without what follows each `%` up to the end of its branch, and the numbers that its modules had.
+pub(super) fn without_cut_branches(string: &ModuleString) -> (ModuleString, Vec<usize>) {
+    let mut numbers = Vec::new();
     let mut kept = ModuleString::new(string.alphabet.clone());
     let mut parameter = 0;
     let mut depth_of_cut = None;
     let mut depth = 0_i64;
-    for &kind in &string.kinds {
+    for (number, &kind) in string.kinds.iter().enumerate() {
         let arity = string.alphabet.kinds()[kind as usize].arity as usize;
         depth += i64::from(kind == Alphabet::OPEN) - i64::from(kind == Alphabet::CLOSE);
         if depth_of_cut.is_some_and(|cut| depth < cut) {
@@ -23,11 +24,12 @@ pub(super) fn without_cut_branches(string: &ModuleString) -> ModuleString {
         }
         if depth_of_cut.is_none() {
             kept.kinds.push(kind);
+            numbers.push(number);
             kept.parameters.extend_from_slice(&string.parameters[parameter..parameter + arity]);
         }
         parameter += arity;
     }
-    kept
+    (kept, numbers)
 }
 
 /// Obeys `%(n)` that replaced a module of a timed model; where the old string goes on.

@@ -1,6 +1,6 @@
 //! Queries and communication: the turtle walks along the string, and the environment answers.
 
-use super::{Derivation, DerivationError, Derived};
+use super::{Derivation, DerivationError, Derived, Noted};
 use crate::{EnvironmentError, Following, ModuleString, Reply, Request, Turtle, turtle::Stance};
 
 /// What a query asks for.
@@ -83,7 +83,7 @@ impl Derivation<'_> {
         }
         let string =
             std::mem::replace(&mut self.string, ModuleString::new(self.system.alphabet.clone()));
-        let shown = self.shown(&string, Some(&wanted));
+        let shown = self.shown(&string, Noted::Kinds(&wanted));
         self.string = string;
         let (shown, notes) = shown?;
         let stances = Turtle::stances(&shown, &self.options.turtle, &wanted);

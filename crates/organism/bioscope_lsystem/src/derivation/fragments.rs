@@ -5,7 +5,7 @@
 
 use bioscope_core::Vec3;
 
-use super::{Derivation, DerivationError, DerivationOptions, Derived};
+use super::{Derivation, DerivationError, DerivationOptions, Derived, Noted};
 use crate::{Alphabet, EnvironmentError, Frame, LSystem, ModuleString, Turtle, TurtleOptions};
 
 /// One of the words that a string falls into, and where it grows on.
@@ -48,7 +48,7 @@ impl LSystem {
             derivation.machine.recall(memory);
             derivation.step = memory.step;
         }
-        let (shown, notes) = derivation.shown(string, Some(&is_dead))?;
+        let (shown, notes) = derivation.shown(string, Noted::Kinds(&is_dead))?;
         let breaks = breaks(&shown, &notes, turtle).map_err(|error| {
             let reason = error.to_string();
             let error = EnvironmentError::Refused { name: "turtle".into(), reason };

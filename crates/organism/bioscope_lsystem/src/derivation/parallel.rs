@@ -31,7 +31,8 @@ pub(super) fn rewrite(
     threads: bool,
     space: &mut Space,
 ) -> Passed<(Made, u64)> {
-    if threads && task.string.kinds.len() >= 2 * CHUNK && may_split(&task, machine) {
+    if threads && !task.traced && task.string.kinds.len() >= 2 * CHUNK && may_split(&task, machine)
+    {
         return on_threads(task, machine, looked, space);
     }
     one_after_the_other(task, machine, looked, std::mem::take(&mut space.whole))

@@ -37,6 +37,8 @@ pub(super) struct Task<'a> {
     pub shows: bool,
     /// Kinds of module whose copies are noted.
     pub noted: Option<&'a [bool]>,
+    /// Whether it is noted of every module where what becomes of it begins.
+    pub traced: bool,
     /// Applies only the production that would be applied as this one, counted from 0.
     pub only: Option<u64>,
 }
@@ -48,7 +50,7 @@ pub(super) struct Made {
     pub parameters: Vec<f32>,
     /// How many modules each production has made; those of the decomposition after the others.
     pub by_production: Vec<u64>,
-    /// Number in the new and in the old string of noted modules.
+    /// Number in the new and in the old string of noted modules; of all, if they are traced.
     pub notes: Vec<(usize, usize)>,
     /// How many productions were applied, or would have been.
     pub applied: u64,
@@ -155,6 +157,7 @@ impl<'a, 'm> Pass<'a, 'm> {
             let is_active = all
                 || acts(layer.set, kind)
                 || layer.decomposition.is_some_and(|set| acts(set, kind))
+                || self.task.traced
                 || self.task.noted.is_some_and(|noted| noted[kind])
                 || matches!(kind as u8, Alphabet::CUT | Alphabet::REPORTED_CUT);
             self.copied[kind] = if is_active { ACTIVE } else { self.task.arities[kind] };
@@ -179,6 +182,9 @@ impl<'a, 'm> Pass<'a, 'm> {
                 self.copy(count, parameters);
             }
             if count < rest.len() {
+                if self.task.traced {
+                    self.out.notes.push((self.out.kinds.len(), self.place.module));
+                }
                 self.module()?;
             }
         }

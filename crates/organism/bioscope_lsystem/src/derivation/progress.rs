@@ -3,7 +3,7 @@
 use bioscope_core::{Error, Result, Vec3};
 use serde::{Deserialize, Serialize};
 
-use super::{Derivation, DerivationOptions};
+use super::{Derivation, DerivationOptions, Shown};
 use crate::{Alphabet, LSystem, ModuleString, Pose, Turtle, TurtleOptions};
 
 /// How far a derivation has come: all that is needed to go on with it.
@@ -108,6 +108,12 @@ impl Progress {
     pub fn appearance(&self, system: &LSystem, seed: u64) -> Result<ModuleString> {
         let options = DerivationOptions { seed: Some(seed), ..DerivationOptions::default() };
         Ok(Derivation::resume(system, options, self)?.appearance()?)
+    }
+
+    /// What the string looks like, and what each of its modules does.
+    pub fn shown_by_module(&self, system: &LSystem, seed: u64) -> Result<Shown> {
+        let options = DerivationOptions { seed: Some(seed), ..DerivationOptions::default() };
+        Ok(Derivation::resume(system, options, self)?.shown_by_module()?)
     }
 
     /// Codes of the kinds of its modules.

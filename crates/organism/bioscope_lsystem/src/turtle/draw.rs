@@ -164,7 +164,7 @@ impl Turtle<'_> {
             [one] | [one, _] => Vec3::splat(finite(*one)),
             _ => vector(parameters, 0).unwrap_or(Vec3::ONE),
         };
-        let scale = scale * self.state.scale;
+        let scale = scale * self.state.scale * self.growing;
         let frame = self.state.axes.rounded();
         if self.draws {
             self.out.surfaces.push(Surface {
@@ -193,7 +193,7 @@ impl Turtle<'_> {
     fn radius(&self, first: Option<f32>) -> f32 {
         let half = self.state.width / 2.0;
         let factor = if self.is_cpfg() { 0.5 } else { 1.0 } * self.state.scale;
-        first.map_or(half, |size| size * factor).abs()
+        first.map_or(half, |size| size * factor).abs() * self.growing
     }
 
     pub(super) fn ball(&mut self, first: Option<f32>) {

@@ -59,7 +59,7 @@ impl Stand {
             .zip(&mut self.looks[range])
             .map(|(plant, look)| {
                 if plant.progress.step() >= steps {
-                    if !std::mem::take(&mut plant.young).is_empty() {
+                    if !std::mem::take(&mut plant.between).is_empty() {
                         outdate(look);
                     }
                     return Ok(Vec::new());
@@ -248,7 +248,8 @@ impl Stand {
         let State { options, part, done, plants, .. } = &mut self.state;
         let (joints, models, count) = (options.joints, &self.models, plants.len().max(1));
         let plants = plants.par_iter_mut().zip(&mut self.looks).enumerate();
-        let changed = plants.filter(|(_, (plant, look))| is_stale(look) || !plant.young.is_empty());
+        let changed =
+            plants.filter(|(_, (plant, look))| is_stale(look) || !plant.between.is_empty());
         changed.try_for_each(|(number, (plant, look))| {
             // How much of a step has gone by since it was rewritten.
             let late = if number >= *done { 1.0 } else { 0.0 };

@@ -65,13 +65,10 @@ impl Look {
         share: f32,
         before: Option<Arc<Mesh>>,
     ) -> Result<Self> {
-        let mut drawn = plant.drawn(model)?;
+        let mut drawn = plant.drawn(model, math::smoothstep(-0.05, 1.0, share))?;
         for segment in &mut drawn.segments {
             segment.start_radius = stepped(segment.start_radius);
             segment.end_radius = stepped(segment.end_radius);
-        }
-        if !plant.young.is_empty() {
-            drawn.unfold(&plant.young, math::smoothstep(-0.05, 1.0, share));
         }
         let segments = drawn.segments.len();
         let skeleton = SkeletonOptions { joints, ..SkeletonOptions::default() };

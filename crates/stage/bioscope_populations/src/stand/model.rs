@@ -2,8 +2,8 @@
 
 use bioscope_core::{Error, Result};
 use bioscope_lsystem::{
-    Derivation, DerivationOptions, Environment, LSystem, Letter, Limits, Mailbox, MeshOptions,
-    Palette, Progress, Shape, TurtleOptions, built_in,
+    Derivation, DerivationOptions, Environment, LSystem, Letter, Limits, Lineage, Mailbox,
+    MeshOptions, Palette, Progress, Shape, TurtleOptions, built_in,
 };
 
 use super::StandOptions;
@@ -108,13 +108,23 @@ impl Model {
         Ok((derivation.progress(), mailbox.take()))
     }
 
-    /// A plant one step later, and what it asks.
-    pub fn advance(&self, seed: u64, progress: &Progress) -> Result<(Progress, Vec<Letter>)> {
+    /// A plant one step later, what it asks, and what has become of its modules if that is `traced`.
+    pub fn advance(
+        &self,
+        seed: u64,
+        progress: &Progress,
+        traced: bool,
+    ) -> Result<(Progress, Vec<Letter>, Lineage)> {
         let mailbox = Mailbox::default();
         let options = self.options(seed, &mailbox);
         let mut derivation = Derivation::resume(&self.system, options, progress)?;
-        derivation.advance()?;
-        Ok((derivation.progress(), mailbox.take()))
+        let lineage = if traced {
+            derivation.advance_traced()?
+        } else {
+            derivation.advance()?;
+            Lineage::default()
+        };
+        Ok((derivation.progress(), mailbox.take(), lineage))
     }
 
     fn options(&self, seed: u64, mailbox: &Mailbox) -> DerivationOptions {

@@ -1,7 +1,9 @@
 //! One plant.
 
 use bioscope_core::{Id, Random, Result, Vec3, math};
-use bioscope_lsystem::{Interpretation, Letter, Placed, Progress, Shape, Turtle, Young};
+use bioscope_lsystem::{
+    Between, Interpretation, Letter, Lineage, Placed, Progress, Shape, Shown, Turtle,
+};
 use serde::{Deserialize, Serialize};
 
 use super::StandOptions;
@@ -32,8 +34,8 @@ pub(super) struct Plant {
     pub shade: Vec<Letter>,
     /// Whether it has ever drawn anything.
     pub sprouted: bool,
-    /// What it drew in the last step for the first time, if that is to unfold.
-    pub young: Young,
+    /// What it grows from while a step lasts, if it is to be seen growing.
+    pub between: Between,
     /// Whether it had, but draws nothing any more: it is dead.
     pub bare: bool,
 }
@@ -73,30 +75,37 @@ impl Plant {
             letters,
             shade: Vec::new(),
             sprouted: false,
-            young: Young::default(),
+            between: Between::default(),
             bare: false,
         })
     }
 
-    /// What it looks like.
-    pub fn drawn(&self, model: &Model) -> Result<Interpretation> {
+    /// What it looks like when so much of a step has gone by, 0 to 1.
+    pub fn drawn(&self, model: &Model, share: f32) -> Result<Interpretation> {
         let string = self.progress.appearance(&model.system, self.seed)?;
-        Turtle::interpret(&string, &model.turtle)
+        Turtle::interpret_between(&string, &model.turtle, &self.between, share)
+    }
+
+    fn shown(&self, model: &Model) -> Result<Shown> {
+        self.progress.shown_by_module(&model.system, self.seed)
     }
 
     /// Makes a step; what it has shed.
     pub fn rewrite(&mut self, model: &Model, space: &Space, unfolds: bool) -> Result<Vec<Shed>> {
-        let before = unfolds.then(|| self.drawn(model)).transpose()?;
-        (self.progress, self.letters) = model.advance(self.seed, &self.progress)?;
-        let shed = self.shed(model, space)?;
+        let before = unfolds.then(|| self.shown(model)).transpose()?;
+        let mut lineage;
+        (self.progress, self.letters, lineage) =
+            model.advance(self.seed, &self.progress, unfolds)?;
+        let shed = self.shed(model, space, &mut lineage)?;
         if let Some(before) = before {
-            self.young = self.drawn(model)?.young_since(&before);
+            let after = self.shown(model)?;
+            self.between = Between::new(&before, &after, &lineage, &model.turtle);
         }
         Ok(shed)
     }
 
     /// Takes out the modules that leave the plant.
-    fn shed(&mut self, model: &Model, space: &Space) -> Result<Vec<Shed>> {
+    fn shed(&mut self, model: &Model, space: &Space, lineage: &mut Lineage) -> Result<Vec<Shed>> {
         let leaves = |kind: &u8| model.seeds.contains(kind) || model.litter.contains(kind);
         if !self.progress.kinds().iter().any(leaves) {
             return Ok(Vec::new());
@@ -109,6 +118,7 @@ impl Plant {
             from: body.point(one.position),
         });
         let shed = shed.collect();
+        lineage.retain(|module| !leaves(&places[module].kind));
         self.keep(model, |module| !leaves(&places[module].kind));
         Ok(shed)
     }
@@ -123,7 +133,7 @@ impl Plant {
         }
         self.progress.retain(&model.system, |module| renumbered[module].is_some());
         // What it draws has other numbers now.
-        self.young = Young::default();
+        self.between = Between::default();
         self.letters.retain_mut(|letter| match renumbered[letter.module] {
             Some(number) => {
                 letter.module = number;
