@@ -1,6 +1,8 @@
 """What the tests share: small worlds of Python populations, and the check of capability markers."""
 
+import contextlib
 import re
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -11,6 +13,17 @@ import pytest
 import bioscope as bio
 
 ROOT = Path(__file__).parent.parent
+CHROMIUM = next(
+    filter(None, map(shutil.which, ["chromium", "chromium-browser", "google-chrome"])), None
+)
+GRAPHICS = [
+    "--use-angle=swiftshader",
+    "--enable-unsafe-swiftshader",
+    "--ignore-gpu-blocklist",
+    "--disable-background-networking",
+    "--disable-component-update",
+]
+"""Flags with which Chromium draws in three dimensions on a machine without graphics hardware."""
 CAPABILITY = re.compile(r"[A-Z]{2}-[A-Z]?\d+[a-z]?")
 
 
@@ -86,6 +99,35 @@ def small_world(seed: int = 5) -> bio.World:
 @pytest.fixture
 def world() -> bio.World:
     return small_world()
+
+
+@contextlib.contextmanager
+def chromium(*flags):
+    """A browser for the tests of a page."""
+    from playwright.sync_api import sync_playwright
+
+    if CHROMIUM is None:
+        pytest.fail("Chromium is missing: install it (Debian: apt install chromium)")
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(
+            executable_path=CHROMIUM, args=["--no-sandbox", *flags]
+        )
+        yield browser
+        browser.close()
+
+
+@pytest.fixture(scope="module")
+def browser():
+    """Chromium, for pages with pictures in three dimensions."""
+    with chromium(*GRAPHICS) as browser:
+        yield browser
+
+
+@pytest.fixture(scope="module")
+def flat_browser():
+    """Chromium for pages in two dimensions, which the processor draws faster by itself."""
+    with chromium("--disable-gpu") as browser:
+        yield browser
 
 
 @pytest.fixture

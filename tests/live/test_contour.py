@@ -11,8 +11,6 @@ from io import BytesIO
 import numpy as np
 import pytest
 from PIL import Image
-from playwright.sync_api import sync_playwright
-from test_page import CHROMIUM
 from test_server import free_port
 
 pytestmark = pytest.mark.browser
@@ -48,33 +46,26 @@ def outline():
     )
 
 
-def picture():
-    """A striped body on a plain ground."""
+def picture(marks=0):
+    """A striped body on a plain ground; with marks in the corners, so many pixels from it."""
     y, x = np.mgrid[:HEIGHT, :WIDTH] + 0.5
     inside = np.abs(y - CENTER[1]) < half_height((x - CENTER[0]) / 180)
     shade = np.where(inside, 0.55 + 0.1 * np.sin(x / 9), 0.9)
     rgb = np.stack([shade, 0.8 * shade, np.where(inside, 0.2, shade)], axis=2)
+    if marks:
+        left, right = int(CENTER[0] - 180 - marks), int(CENTER[0] + 180 + marks)
+        top, bottom = int(CENTER[1] - 97 - marks), int(CENTER[1] + 97 + marks)
+        for row in (top, bottom):
+            for column in (left, right):
+                rgb[row - 2 : row + 3, column - 2 : column + 3] = 0
     file = BytesIO()
     Image.fromarray((255 * rgb).astype(np.uint8)).save(file, "PNG")
     return {"name": "drawn.png", "mimeType": "image/png", "buffer": file.getvalue()}
 
 
-@pytest.fixture(scope="module")
-def browser():
-    if CHROMIUM is None:
-        pytest.fail("Chromium is missing: install it (Debian: apt install chromium)")
-    with sync_playwright() as playwright:
-        # The page draws in two dimensions: the processor is quicker at it than an imitated GPU.
-        browser = playwright.chromium.launch(
-            executable_path=CHROMIUM, args=["--no-sandbox", "--disable-gpu"]
-        )
-        yield browser
-        browser.close()
-
-
 @pytest.fixture
-def page(address, browser):
-    page = browser.new_page(viewport={"width": 1280, "height": 800})
+def page(address, flat_browser):
+    page = flat_browser.new_page(viewport={"width": 1280, "height": 800})
     page.set_default_timeout(120_000)
     faults = []
     page.on("pageerror", lambda error: faults.append(str(error)))
@@ -184,6 +175,26 @@ def test_an_anchored_node_stays_near_its_anchor(page):
     assert np.median(distances(far)) < 2
 
 
+@pytest.mark.capability("TF-057")
+def test_a_wider_potential_catches_from_further_away(page):
+    """The mesh begins at marks well outside the fish."""
+    page.set_input_files("input[type=file]", picture(marks=26))
+    page.wait_for_timeout(300)
+    away = distances(border(nodes(page)))
+    assert np.median(away) > 12
+    caught = {}
+    for width in (1.5, 14):
+        press(page, "Start over")
+        field = page.locator(".tp-lblv", has_text="range, px").locator("input")
+        field.fill(str(width))
+        field.press("Enter")
+        press(page, "Settle")
+        status(page, "settled")
+        caught[width] = np.mean(distances(border(nodes(page))) < 2)
+    assert caught[1.5] < 0.5
+    assert caught[14] > 0.9
+
+
 @pytest.mark.capability("TF-058")
 def test_fins_have_a_mesh_of_their_own(page):
     page.locator("select").first.select_option(label="fin, 2 × 12")
@@ -193,6 +204,23 @@ def test_fins_have_a_mesh_of_their_own(page):
     points = nodes(page)
     assert points.shape == (2, 12, 2)
     assert distances(border(points)).max() < 2
+
+
+def test_the_whole_mesh_is_moved_and_sized(page):
+    before = nodes(page)
+    middle = on_screen(CENTER)
+    page.keyboard.down("Shift")
+    page.mouse.move(*middle)
+    page.mouse.wheel(0, 300)
+    page.mouse.down()
+    page.mouse.move(middle[0] + 40, middle[1] + 10)
+    page.mouse.up()
+    page.keyboard.up("Shift")
+    page.wait_for_timeout(300)
+    after = nodes(page)
+    scale = 0.86 * min(1280 / WIDTH, 800 / HEIGHT)
+    wanted = CENTER + np.exp(-0.45) * (before - CENTER) + np.array([40, 10]) / scale
+    assert np.abs(after - wanted).max() < 0.5
 
 
 def test_what_is_no_picture_is_told(page):

@@ -90,6 +90,8 @@ class Page:
                     self.got.append(message)
                     if message["type"] == "frame":
                         await self.say("seen", tick=message["tick"])
+                    if message["type"] == "inspection":
+                        await self.say("inspected")
                     if wanted(message):
                         return message
 

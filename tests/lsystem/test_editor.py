@@ -3,7 +3,6 @@
 import asyncio
 import json
 import re
-import shutil
 import signal
 import socket
 import subprocess
@@ -12,20 +11,9 @@ import sys
 import msgspec
 import pytest
 import websockets
-from playwright.sync_api import sync_playwright
 
 import bioscope as bio
 
-CHROMIUM = next(
-    filter(None, map(shutil.which, ["chromium", "chromium-browser", "google-chrome"])), None
-)
-FLAGS = [
-    "--no-sandbox",
-    "--use-angle=swiftshader",
-    "--enable-unsafe-swiftshader",
-    "--ignore-gpu-blocklist",
-    "--disable-background-networking",
-]
 MODEL = """#define LENGTH 1 /* parameter: 0.5 to 4 m, length of a stroke */
 lsystem: ladder
 derivation length: 4
@@ -107,6 +95,7 @@ def test_plants_grow_and_problems_have_a_place(server):
     assert wrong["problems"][0]["line"] == 5
     assert wrong["problems"][0]["column"] > 1
     assert exploding["problems"][0]["line"] == 4
+    assert (wrong["too_large"], exploding["too_large"]) == (False, True)
     assert "modules" in exploding["problems"][0]["message"]
     assert again["string"] == grown["string"]
 
@@ -137,16 +126,6 @@ def test_strangers_are_refused(server):
         talk(server, origin="http://elsewhere.example")
     with pytest.raises(websockets.ConnectionClosedError, match="malformed"):
         talk(server, {"do": "save", "text": "", "file": "/etc/passwd"})
-
-
-@pytest.fixture(scope="module")
-def browser():
-    if CHROMIUM is None:
-        pytest.fail("Chromium is missing: install it (Debian: apt install chromium)")
-    with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=CHROMIUM, args=FLAGS)
-        yield browser
-        browser.close()
 
 
 def until(page, condition):
@@ -205,4 +184,20 @@ def test_a_link_opens_the_same_text(page, browser, server):
     until(other, "window.bioscopeEditor?.plant")
     assert other.evaluate("window.bioscopeEditor.text") == text
     assert text != MODEL
+    other.close()
+
+
+@pytest.mark.browser
+def test_a_text_that_explodes_is_shown_younger(page, browser):
+    page.click("text=endlsystem")
+    page.keyboard.press("ControlOrMeta+a")
+    page.keyboard.insert_text(EXPLODING.replace("AA", "F[+A]A"))
+    until(page, "window.bioscopeEditor.problems.length === 1")
+    page.click("[data-action=share]")
+    until(page, "location.hash.includes('model=')")
+    other = browser.new_page()
+    other.goto(page.evaluate("location.href"))
+    until(other, "window.bioscopeEditor?.plant")
+    assert other.evaluate("window.bioscopeEditor.plant.steps") == 15
+    assert other.locator(".bio-step").inner_text() == "step 15 of 60"
     other.close()

@@ -29,6 +29,7 @@ export class FrameLoop {
   private lastPanels = 0;
   private lastReconnect = 0;
   private readonly unseen: number[] = [];
+  private inspected = false;
   private fine = false;
   private renewed = false;
   private wasBroken = false;
@@ -50,6 +51,9 @@ export class FrameLoop {
       viewer.stage.assets.settle();
     });
     session.on("frame", (frame) => this.take(frame));
+    session.on("inspection", () => {
+      this.inspected = true;
+    });
     for (const kind of ["mesh", "material", "texture"] as const) {
       session.on(kind, (message) => viewer.stage.takeAsset(message));
     }
@@ -126,9 +130,12 @@ export class FrameLoop {
     }
   }
 
-  /** Tells the world that its frames have arrived where pictures are made, each once. */
+  /** Tells the world that its frames and inspections have arrived where pictures are made, each once. */
   private acknowledge(): void {
-    for (const tick of this.unseen.splice(0)) this.viewer.session.send({ do: "seen", tick });
+    const { session } = this.viewer;
+    for (const tick of this.unseen.splice(0)) session.send({ do: "seen", tick });
+    if (this.inspected) session.send({ do: "inspected" });
+    this.inspected = false;
   }
 
   private show(moment: Moment, dt: number): void {

@@ -171,8 +171,8 @@ export class Viewer {
   private assemble(canvas: HTMLCanvasElement): void {
     canvas.className = "bio-picture";
     const right = element("div", { class: "bio-right" }, this.inspector.element);
-    this.root.append(canvas, this.marks.element, this.dock.element, this.panels.element, right);
-    this.root.append(this.controls.element);
+    this.root.append(canvas, this.marks.element, this.controls.element);
+    this.root.append(this.dock.element, this.panels.element, right);
     this.root.append(this.notices.element, this.help.element, this.dialog.element);
     const pane = new ParameterPane(this.parameters, () => this.parameters.owners);
     this.panels.add({ name: "parameters", title: "Parameters", body: pane.element });

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from bioscope.live.messages import Select
+
 if TYPE_CHECKING:
     from bioscope.live.session import Snapshot
 
@@ -15,10 +17,18 @@ class Feed:
 
     def __init__(self) -> None:
         self.annotations = False
+        self.selected = Select(0)
+        """Whom the page inspects."""
+        self.inspecting = False
+        """Whether an inspection is under way that the page has not shown yet."""
         self._known: set[int] = set()
         self._revision = -1
         self._number = -1
         self._under_way = 0
+
+    def select(self, selected: Select) -> None:
+        """Note whom the page inspects from now on."""
+        self.selected, self.inspecting = selected, False
 
     def seen(self) -> None:
         """Note that the page has drawn a frame."""

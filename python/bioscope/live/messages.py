@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, TypeVar
 
 import msgspec
 
@@ -177,6 +177,10 @@ class Seen(Command, tag="seen", frozen=True):
     tick: Annotated[int, msgspec.Meta(ge=0)]
 
 
+class Inspected(Command, tag="inspected", frozen=True):
+    """Acknowledge that an inspection has been shown: the next may come."""
+
+
 AnyCommand = (
     Join
     | Play
@@ -200,9 +204,11 @@ AnyCommand = (
     | Annotations
     | Snapshot
     | Seen
+    | Inspected
 )
 
 _decoder = msgspec.json.Decoder(AnyCommand)
+_Any = TypeVar("_Any")
 
 
 def decode(text: str | bytes) -> AnyCommand:
@@ -213,13 +219,24 @@ def decode(text: str | bytes) -> AnyCommand:
     FormatError
         If it is too long or none of the table.
     """
-    if len(text) > LARGEST_MESSAGE:
-        raise FormatError(f"message of {len(text)} bytes: expected at most {LARGEST_MESSAGE}")
+    command: AnyCommand = decode_by(_decoder, text, LARGEST_MESSAGE)
+    return command
+
+
+def decode_by(decoder: msgspec.json.Decoder[_Any], text: str | bytes, longest: int) -> _Any:
+    """Return the command in a message of at most so many bytes, as the decoder of a page reads it.
+
+    Raises
+    ------
+    FormatError
+        If it is too long or unknown to the decoder.
+    """
+    if len(text) > longest:
+        raise FormatError(f"message of {len(text)} bytes: expected at most {longest}")
     try:
-        command: AnyCommand = _decoder.decode(text)
+        return decoder.decode(text)
     except (msgspec.DecodeError, ValueError) as error:
         raise FormatError(f"malformed message: {error}") from None
-    return command
 
 
 def encode(type_: str, **fields: object) -> bytes:

@@ -70,7 +70,6 @@ class Watch:
     def __init__(self, world: World, view: Any) -> None:
         self._view = view
         self._feed = Feed()
-        self._selected = messages.Select(0)
         self._joined = False
         self._lock = threading.Lock()
         self.session = Session(world, world.seed, self._from_session)
@@ -109,7 +108,9 @@ class Watch:
             case messages.Seen():
                 self._feed.seen()
             case messages.Select():
-                self._selected = command
+                self._feed.select(command)
+            case messages.Inspected():
+                self._feed.inspecting = False
             case messages.Annotations(on=on):
                 self._feed.annotations = on
                 self.session.annotations = int(on)
@@ -119,6 +120,12 @@ class Watch:
     def _inspect(self) -> None:
         while not self.session.closed:
             time.sleep(1 / INSPECTIONS_PER_SECOND)
-            if self._selected.id:
-                with contextlib.suppress(BioscopeError):
-                    self._send(inspection(self.session.world, self._selected))
+            feed = self._feed
+            if not feed.selected.id or feed.inspecting:
+                continue
+            selected = feed.selected
+            with contextlib.suppress(BioscopeError):
+                message = inspection(self.session.world, selected)
+                if selected is feed.selected:
+                    feed.inspecting = True
+                    self._send(message)

@@ -66,10 +66,16 @@ def check_addition(kind: str, count: int) -> None:
         raise BioscopeError(f"count = {count}: expected up to {most:,} {kind}")
 
 
-def catalog() -> dict[str, list[str]]:
-    """Return the species of fish and the plant models that can be added to a world."""
+def catalog() -> dict[str, Any]:
+    """Return the species of fish and the plant models that can be added to a world.
+
+    `leaves` says of the models that count them how many a plant has.
+    """
+    models = {path.stem: path for path in plants.marine()}
+    leaves = {name: plants.leaves_of(path) for name, path in models.items()}
     return {
         "fish": _engine.fish_species(),
         "hunters": [*HUNTERS],
-        "plants": sorted(path.stem for path in plants.marine()),
+        "plants": sorted(models),
+        "leaves": {name: number for name, number in leaves.items() if number is not None},
     }

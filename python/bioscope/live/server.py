@@ -45,7 +45,6 @@ class Client:
         self.wake = asyncio.Event()
         self.messages: asyncio.Queue[bytes] = asyncio.Queue(_MESSAGES_QUEUED)
         self.feed = Feed()
-        self.selected = messages.Select(0)
         self.steered = 0
         """Whom the page steers; 0 for nobody."""
 
@@ -181,7 +180,9 @@ class Live:
                     client.feed.seen()
                     client.wake.set()
                 case messages.Select():
-                    client.selected = command
+                    client.feed.select(command)
+                case messages.Inspected():
+                    client.feed.inspecting = False
                 case messages.Steer(id=steered, steering=steering):
                     client.steered = 0 if steering is None else steered
                     self.session.command(command, answer)
@@ -208,11 +209,15 @@ class Live:
         loop = asyncio.get_running_loop()
         while True:
             await asyncio.sleep(1 / INSPECTIONS_PER_SECOND)
-            if not client.selected.id:
+            feed = client.feed
+            if not feed.selected.id or feed.inspecting:
                 continue
-            world = self.session.world
+            world, selected = self.session.world, feed.selected
             with contextlib.suppress(BioscopeError):
-                client.tell(await loop.run_in_executor(None, inspection, world, client.selected))
+                message = await loop.run_in_executor(None, inspection, world, selected)
+                if selected is feed.selected:
+                    feed.inspecting = True
+                    client.tell(message)
 
 
 def serve(

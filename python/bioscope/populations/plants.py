@@ -68,8 +68,8 @@ class Plants(Asked):
     start
         Steps that they have grown before the world begins.
     numbers
-        Other values of numbers that the text defines (`#define VD 0.95`): one for all, or one per
-        plant.
+        Other values of numbers that the text defines (`#define VD 0.95`): one for all or, of
+        growing plants, one per plant.
     seeds, litter
         Symbols of modules that leave the plant as seeds, which fall and germinate, and as leaves.
     season
@@ -166,12 +166,15 @@ class Plants(Asked):
         }
         if rate is None:
             said = [key for key, value in growing.items() if value is not None]
-            if said or numbers is not None:
+            if said:
                 raise InvalidValueError(
-                    f"{', '.join(said) or 'numbers'}: for plants that grow; give them a rate"
+                    f"{', '.join(said)}: for plants that grow; give them a rate"
                 )
+            texts = _with_numbers(name, text, numbers or {})
+            if len(texts) > 1:
+                raise InvalidValueError("numbers: one value each, for plants without rate")
             pair = (size, size) if isinstance(size, int | float) else size
-            options |= {"source": text, "size": pair, "variants": variants}
+            options |= {"source": texts[0], "size": pair, "variants": variants}
             super().__init__("plants", options, parameters)
             return
         if variants is not None or not isinstance(size, int | float | None):
@@ -229,6 +232,13 @@ def models() -> dict[str, Path]:
 def marine() -> list[Path]:
     """Return the files of the plants that live in water."""
     return sorted(_WORLDS.glob("*/plants/*.l"))
+
+
+def leaves_of(model: Path) -> int | None:
+    """Return how many leaves a plant (or each of its fronds) has, if its text says: `LEAVES`."""
+    line = re.compile(rf"^[ \t]*#define[ \t]+LEAVES[ \t]+({_NUMBER})", re.M)
+    found = line.search(model.read_text(encoding="utf-8", errors="replace"))
+    return int(float(found[1].strip("()"))) if found else None
 
 
 def model_path(model: str) -> Path:

@@ -50,6 +50,8 @@ class Addition(Change, tag="add", frozen=True):
     """Of fishes; the model of plants."""
     role: Literal["predator", "prey", "pacifist", "generic"] = "generic"
     """How fishes live."""
+    leaves: Annotated[int, msgspec.Meta(ge=1, le=100)] | None = None
+    """Of each plant whose model counts them; as many as the model says if none."""
 
 
 AnyChange = Setting | Order | Addition
@@ -80,7 +82,9 @@ def _add(world: World, addition: Addition) -> None:
         case "plants":
             area = populations.Disk((place[0], place[2]), 0.5 * max(1.0, count) ** 0.5)
             habitat = populations.Habitat(area=area)
-            world.add(populations.Plants(addition.species, count, habitat=habitat))
+            numbers = None if addition.leaves is None else {"LEAVES": addition.leaves}
+            plants = populations.Plants(addition.species, count, habitat=habitat, numbers=numbers)
+            world.add(plants)
         case "pillars":
             world.add(populations.Pillars(_ring(place, count)))
 

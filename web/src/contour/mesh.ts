@@ -117,6 +117,14 @@ export class ContourMesh {
     this.lower = undefined;
   }
 
+  /** Sizes the whole mesh about a point, and moves it; anchors stay. */
+  transform(factor: number, [x, y]: Point, [right, down]: Point): void {
+    for (let at = 0; at < this.positions.length; at += 2) {
+      this.positions[at] = x + factor * (this.positions[at] - x) + right;
+      this.positions[at + 1] = y + factor * (this.positions[at + 1] - y) + down;
+    }
+  }
+
   /** Shifts a node by hand; its neighbors follow the less the further away they are. */
   shift(node: number, [x, y]: Point): void {
     const [row, column] = [Math.floor(node / this.columns), node % this.columns];

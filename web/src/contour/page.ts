@@ -17,7 +17,8 @@ const PATIENCE = [10, 250];
 const HELP =
   "Open a picture of a fish from the side, or drop it here. Drag the border near the outline, anchor nodes by double " +
   "click where the outline is faint, then let it settle. A node that is dragged meanwhile is pulled by a spring. " +
-  "Wheel: zoom. Drag beside the mesh: move the picture.";
+  "With Shift, dragging moves the whole mesh and the wheel sizes it. Wheel: zoom. Drag beside the mesh: move the " +
+  "picture. The fish should look to the left: bio.fish.Form makes a body of the saved coordinates.";
 
 /** What the sliders set. */
 const settings = { mesh: "body", feature: "edges" as Feature, range: 12, ...STRENGTHS };
@@ -140,10 +141,11 @@ class ContourPage {
       canvas.setPointerCapture(event.pointerId);
       this.message = "";
       last = place(event);
-      this.held = this.view.nodeAt(this.mesh, last);
+      this.held = event.shiftKey ? undefined : this.view.nodeAt(this.mesh, last);
     });
     canvas.addEventListener("pointermove", (event) => {
-      if (last) this.drag(last, place(event));
+      if (last && event.shiftKey && this.held === undefined) this.moveMesh(last, place(event));
+      else if (last) this.drag(last, place(event));
       last &&= place(event);
     });
     for (const end of ["pointerup", "pointercancel"] as const) {
@@ -158,7 +160,10 @@ class ContourPage {
       "wheel",
       (event) => {
         event.preventDefault();
-        this.view.zoom(Math.exp(-0.0015 * event.deltaY), place(event));
+        // With Shift, browsers turn the wheel sideways.
+        const factor = Math.exp(-0.0015 * (event.deltaY || event.deltaX));
+        if (event.shiftKey) this.sizeMesh(factor, place(event));
+        else this.view.zoom(factor, place(event));
       },
       { passive: false },
     );
@@ -178,6 +183,17 @@ class ContourPage {
       this.mesh.hold(this.held, end);
       this.relaxation.wake();
     } else this.mesh.shift(this.held, [end[0] - start[0], end[1] - start[1]]);
+  }
+
+  private moveMesh(from: Point, to: Point): void {
+    const [start, end] = [this.view.onPicture(from), this.view.onPicture(to)];
+    this.mesh.transform(1, [0, 0], [end[0] - start[0], end[1] - start[1]]);
+    this.relaxation?.wake();
+  }
+
+  private sizeMesh(factor: number, about: Point): void {
+    this.mesh.transform(factor, this.view.onPicture(about), [0, 0]);
+    this.relaxation?.wake();
   }
 
   private toggleAnchor(at: Point): void {

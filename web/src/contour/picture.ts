@@ -135,13 +135,18 @@ export class Potential {
   }
 }
 
-/** The box, as left, top, right, bottom in pixels, that holds all but 0.2 % of the edges on each side. */
+/** Edges weaker than this share of the strongest are the ground's: gradients, noise, the picture's compression. */
+const FAINT = 0.15;
+
+/** The box, as left, top, right, bottom in pixels, that holds all but 0.2 % of the clear edges on each side. */
 export function contentBox(picture: Picture): [number, number, number, number] {
   const { width, height } = picture;
   const strengths = edges(picture);
   const columns = new Float64Array(width);
   const rows = new Float64Array(height);
+  const faint = FAINT * strengths.reduce((most, one) => Math.max(most, one), 0);
   strengths.forEach((one, pixel) => {
+    if (one < faint) return;
     columns[pixel % width] += one;
     rows[Math.floor(pixel / width)] += one;
   });

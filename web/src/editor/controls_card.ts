@@ -5,8 +5,8 @@ import { type ModelParameter, written } from "./parameters";
 
 /** Seeds that the slider offers; others can be typed. */
 const SEEDS = 100;
-/** Choice of no surroundings. */
-export const ALONE = "none";
+/** Choice of no other surroundings than the text names. */
+export const ALONE = "as the text says";
 
 export interface Choices {
   seed: number;

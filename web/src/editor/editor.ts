@@ -168,8 +168,18 @@ export class Editor {
     if (!this.orders.take(failed.number)) return;
     this.growth.stop();
     this.root.classList.add("bio-failed");
-    this.list.say(this.grown ? "The plant is the last one that could be grown." : "");
+    this.list.say(this.grown ? "The plant is the last one that could be grown." : "Nothing has grown yet.");
     this.judge(failed.problems);
+    if (!this.grown && failed.too_large) this.growLess(failed.problems[0]);
+  }
+
+  /** A first plant that gets out of hand is shown younger. */
+  private growLess(problem: Problem): void {
+    this.growth.guessLength(this.text.text);
+    const step = this.growth.halve();
+    if (step === 0) return;
+    this.notices.tell({ level: "warning", text: `${problem.message}.`, remedy: `Trying step ${step}.` });
+    this.order();
   }
 
   private judge(problems: Problem[]): void {

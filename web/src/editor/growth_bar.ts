@@ -47,6 +47,21 @@ export class GrowthBar {
     this.refresh();
   }
 
+  /** Takes the number of steps from a text of which nothing has grown yet. */
+  guessLength(text: string): void {
+    if (this.length > 0) return;
+    const said = /^\s*derivation length:\s*(\w+)/m.exec(text)?.[1] ?? "";
+    const named = new RegExp(`^\\s*#define\\s+${said || "-"}\\s+(\\d+)`, "m").exec(text)?.[1];
+    this.setLength(Number(named ?? said) || 0);
+  }
+
+  /** Goes to half of the steps; says to which. */
+  halve(): number {
+    this.step = Math.floor((this.step ?? this.length) / 2);
+    this.refresh();
+    return this.step;
+  }
+
   /** A step has been shown: the next may follow. */
   shown(): void {
     if (!this.playing) return;

@@ -54,6 +54,8 @@ export interface Failed {
   type: "failed";
   number: number;
   problems: Problem[];
+  /** Whether it would have become too large, or taken too long: after fewer steps it might do. */
+  too_large: boolean;
 }
 
 export interface Saved {

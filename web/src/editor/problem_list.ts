@@ -39,7 +39,7 @@ export class ProblemList {
       mesh.triangles.length > 0
         ? `${length(size.height)} high, ${length(size.breadth)} wide`
         : "nothing is drawn",
-      `${seconds < 0.0995 ? (1000 * seconds).toFixed(0) : (1000 * seconds).toPrecision(2)} ms`,
+      `${seconds < 0.0995 ? (1000 * seconds).toFixed(0) : Number((1000 * seconds).toPrecision(2))} ms`,
     ];
     this.say(facts.join(" · "));
   }

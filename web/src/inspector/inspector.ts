@@ -1,7 +1,7 @@
 import { colorOf } from "../colors";
 import type { Session } from "../messages/session";
 import type { Inspection, Owner } from "../messages/types";
-import { element, sign } from "../overlays/dom";
+import { element, nameOf, sign } from "../overlays/dom";
 import { SIGNS } from "../overlays/signs";
 import { Chart } from "./chart";
 import { ParameterPane, type ParameterStore } from "./parameters";
@@ -65,7 +65,7 @@ export class Inspector {
     this.id = id;
     this.latest = null;
     this.element.hidden = id === 0;
-    this.title.textContent = `${species} #${id}`;
+    this.title.textContent = nameOf(species, id);
     this.behavior.hidden = true;
     this.retina.show(null);
     this.rows.clear();
@@ -84,7 +84,7 @@ export class Inspector {
     if (inspection.id !== this.id || this.element.hidden) return;
     this.latest = inspection;
     const { behavior, population } = inspection;
-    this.title.textContent = `${inspection.species} #${inspection.id}`;
+    this.title.textContent = nameOf(inspection.species, inspection.id);
     this.behavior.hidden = !behavior;
     if (behavior) {
       this.behavior.textContent = behavior;
@@ -117,7 +117,7 @@ export class Inspector {
     const away = Array.isArray(one.position) ? Math.hypot(...(one.position as number[])) : Number.NaN;
     const link = element("button", {
       class: "bio-link",
-      textContent: `${one.species ?? ""} #${id}`,
+      textContent: nameOf(String(one.species ?? ""), id),
       onclick: () => this.select(id),
     });
     return row(link, Number.isNaN(away) ? "" : `${away.toFixed(2)} m`);

@@ -20,6 +20,8 @@ export interface Addition {
   position: [number, number, number];
   species?: string;
   role?: "predator" | "prey" | "pacifist" | "generic";
+  /** Of each plant. */
+  leaves?: number;
 }
 
 export type Command =
@@ -44,4 +46,5 @@ export type Command =
   | { do: "play script"; text: string }
   | { do: "annotations"; on: boolean }
   | { do: "snapshot" }
-  | { do: "seen"; tick: number };
+  | { do: "seen"; tick: number }
+  | { do: "inspected" };

@@ -49,6 +49,8 @@ export interface Catalog {
   fish: string[];
   hunters: string[];
   plants: string[];
+  /** How many leaves a plant has, by the names of the models that count them. */
+  leaves?: Record<string, number>;
 }
 
 export interface MeshMessage {

@@ -27,7 +27,7 @@ export class Controls {
       this.timeline.element,
       element("div", { class: "bio-group" }, this.button("slower"), this.speed, this.button("faster")),
       element("div", { class: "bio-group" }, camera),
-      this.group("annotations", "parameters", "populations", "events"),
+      this.group("annotations"),
       this.group("screenshot", "video", "share", "page", "snapshot", "help"),
     );
   }

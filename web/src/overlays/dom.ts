@@ -33,6 +33,11 @@ export function sign(path: string): SVGSVGElement {
   return svg;
 }
 
+/** What an individual is called. */
+export function nameOf(species: string, id: number): string {
+  return `${species.replaceAll("_", " ")} #${id}`;
+}
+
 /** Hands bytes to the browser as a file to keep. */
 export function download(name: string, content: Blob): void {
   const address = URL.createObjectURL(content);

@@ -44,6 +44,7 @@ export class Panels {
     if (again) return;
     const { panel, card } = this.cards.get(name)!;
     card.hidden = false;
+    card.scrollTop = 0;
     this.open = name;
     panel.opened?.();
     this.changed(name, true);

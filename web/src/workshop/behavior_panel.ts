@@ -1,6 +1,6 @@
 import { colorOf } from "../colors";
 import { Chart } from "../inspector/chart";
-import { element } from "../overlays/dom";
+import { element, nameOf } from "../overlays/dom";
 import type { Panel } from "../overlays/panels";
 import { Slider, toggle } from "./slider";
 import type { Steering } from "./steering";
@@ -90,7 +90,7 @@ export class BehaviorPanel implements Panel {
     this.mind.hidden = !minded;
     this.become.element.hidden = now?.values.steered === undefined;
     this.become.show(this.steering.id !== 0 && this.steering.id === now?.id);
-    const text = now === null ? "Click a fish." : `${now.species} #${now.id}`;
+    const text = now === null ? "Click a fish." : nameOf(now.species, now.id);
     this.whom.textContent = now === null || minded ? text : `${text} follows no drives.`;
     if (!now || !minded) return;
     if (now.id !== this.id) this.begin(now.id);

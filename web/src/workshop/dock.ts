@@ -13,9 +13,10 @@ export class Dock {
   private readonly buttons = new Map<string, HTMLButtonElement>();
 
   constructor(private readonly viewer: Viewer) {
-    this.element.hidden = viewer.session.transport.kind === "recording";
-    for (const name of PANELS) this.add(actionNamed(name));
-    this.element.append(element("hr"));
+    if (viewer.session.transport.kind !== "recording") {
+      for (const name of PANELS) this.add(actionNamed(name));
+      this.element.append(element("hr"));
+    }
     for (const name of OTHERS) this.add(actionNamed(name));
   }
 

@@ -1,6 +1,6 @@
 import { RetinaView } from "../inspector/retina";
 import type { Selection } from "../inspector/selection";
-import { element } from "../overlays/dom";
+import { element, nameOf } from "../overlays/dom";
 import type { Panel } from "../overlays/panels";
 import { Slider, toggle } from "./slider";
 import type { Subject } from "./subject";
@@ -80,7 +80,7 @@ export class EyePanel implements Panel {
     if (!this.body.offsetParent) return;
     const { now } = this.subject;
     const { pan, tilt, both } = this.selection.gaze;
-    this.whom.textContent = now ? `${now.species} #${now.id}` : "Click a fish.";
+    this.whom.textContent = now ? nameOf(now.species, now.id) : "Click a fish.";
     this.retina.show(now?.retina ?? null);
     this.pan.show(pan);
     this.tilt.show(tilt);

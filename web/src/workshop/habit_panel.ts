@@ -1,4 +1,4 @@
-import { element } from "../overlays/dom";
+import { element, nameOf } from "../overlays/dom";
 import type { Panel } from "../overlays/panels";
 import { type Toggle, toggle } from "./slider";
 import type { Subject } from "./subject";
@@ -61,7 +61,7 @@ export class HabitPanel implements Panel {
     const { now, mind } = this.subject;
     const minded = now !== null && mind !== "";
     this.mind.hidden = !minded;
-    const text = now === null ? "Click a fish." : `${now.species} #${now.id}`;
+    const text = now === null ? "Click a fish." : nameOf(now.species, now.id);
     this.whom.textContent = now === null || minded ? text : `${text} has no habits.`;
     if (!minded) return;
     const has = (name: string) => (this.subject.value(name) ?? 0) >= 0.5;

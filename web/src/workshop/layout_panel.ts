@@ -1,5 +1,6 @@
+import { colorOf } from "../colors";
 import type { Session } from "../messages/session";
-import { download, element } from "../overlays/dom";
+import { download, element, nameOf } from "../overlays/dom";
 import type { Panel } from "../overlays/panels";
 import type { Stage } from "../scene/stage";
 import { drawMap, nearest, type Section, type Spot, sectionOf, spotsOf, toPicture, toWorld } from "./map";
@@ -27,6 +28,7 @@ export class LayoutPanel implements Panel {
   readonly title = "Layout";
   readonly body = element("div", { class: "bio-layout" });
   private readonly canvas = element("canvas", { class: "bio-map", width: SIZE, height: SIZE });
+  private readonly legend = element("div", { class: "bio-legend" });
   private readonly note = element("small", { class: "bio-quiet" });
   private readonly height: Slider;
   private readonly size: Slider;
@@ -68,6 +70,7 @@ export class LayoutPanel implements Panel {
       element("button", { textContent, title, onclick });
     this.body.append(
       this.canvas,
+      this.legend,
       this.note,
       this.height.element,
       this.size.element,
@@ -110,10 +113,25 @@ export class LayoutPanel implements Panel {
     if (context) drawMap(context, this.spots, this.section, SIZE, this.hooks.selected());
     const one = this.chosen();
     const text = one
-      ? `${one.species} #${one.id} at ${[one.x, one.y, one.z].map((axis) => axis.toFixed(2)).join(", ")} m`
-      : `${this.spots.length} things that can be moved`;
+      ? `${nameOf(one.species, one.id)} at ${[one.x, one.y, one.z].map((axis) => axis.toFixed(2)).join(", ")} m`
+      : `${this.spots.length} things that can be dragged; the wheel comes nearer`;
     if (this.note.textContent !== text) this.note.textContent = text;
+    this.height.element.hidden = one === undefined;
+    this.size.element.hidden = one === undefined || this.residents.can(one.species, "steer");
     if (one) this.height.show(one.y);
+    this.tellColors();
+  }
+
+  /** Says which color is whose. */
+  private tellColors(): void {
+    const species = [...new Set(this.spots.map((spot) => spot.species))].sort();
+    if (this.legend.dataset.species === species.join()) return;
+    this.legend.dataset.species = species.join();
+    this.legend.replaceChildren(
+      ...species.map((one) =>
+        element("span", { style: `--color: ${colorOf(one)}`, textContent: one.replaceAll("_", " ") }),
+      ),
+    );
   }
 
   /** Where an individual is on the map, as shares of its sides; null if it is not on it. */

@@ -66,7 +66,7 @@ export class PhysicsPanel implements Panel {
     const owner = this.store.owners.find(({ parameters }) => parameters.some((one) => one.name === WATER));
     this.body.append(element("h4", { textContent: "Bodies and water" }));
     if (!owner) {
-      const text = "No fish here is moved by muscles: those with minds are.";
+      const text = "No fish here is moved by muscles. Newcomers of the population panel are.";
       this.body.append(element("p", { class: "bio-quiet", textContent: text }));
       return;
     }
@@ -83,6 +83,7 @@ export class PhysicsPanel implements Panel {
     for (const parameter of owner.parameters.filter((one) => one.name.startsWith(BODY)))
       this.add(owner.name, parameter, {
         label: parameter.name.slice(BODY.length),
+        unit: "×",
         change: (value) => this.setAll(parameter.name, value),
       });
   }
@@ -136,7 +137,7 @@ export class PhysicsPanel implements Panel {
   private add(
     owner: string,
     parameter: Parameter,
-    shown: { label: string; min?: number; max?: number; change: (value: number) => void },
+    shown: { label: string; unit?: string; min?: number; max?: number; change: (value: number) => void },
     into: HTMLElement = this.body,
   ): void {
     const { name, unit, meaning, value, minimum: min, maximum: max } = parameter;

@@ -14,6 +14,9 @@ const ROLES: Record<Role, string> = {
   generic: "does all of it",
 };
 
+/** Leaves of a plant at most. */
+const MOST_LEAVES = 100;
+
 /** How many of each there are, and who else could come. */
 export class PopulationPanel implements Panel {
   readonly name = "numbers";
@@ -23,6 +26,8 @@ export class PopulationPanel implements Panel {
   private readonly what = element("select", { ariaLabel: "what comes" });
   private readonly role = element("select", { ariaLabel: "how it lives" });
   private readonly count = numberField(5, 2000, "how many come");
+  private readonly leaves = numberField(1, MOST_LEAVES, "leaves of each", {}, 1);
+  private readonly foliage = element("label", { class: "bio-row" }, this.leaves, "leaves on each of them");
   private shape = "";
 
   constructor(
@@ -46,6 +51,7 @@ export class PopulationPanel implements Panel {
       this.list,
       element("h4", { textContent: "Newcomers" }),
       element("div", { class: "bio-row" }, this.count, this.what),
+      this.foliage,
       element("div", { class: "bio-row" }, this.role, add),
       element("div", { class: "bio-row" }, remove),
     );
@@ -69,7 +75,9 @@ export class PopulationPanel implements Panel {
 
   private build(shape: string): void {
     this.shape = shape;
-    this.list.replaceChildren(...this.residents.all.map((one) => this.row(one)));
+    const lasting = (one: Resident) => !one.orders.includes("number");
+    const all = [...this.residents.all].sort((a, b) => Number(lasting(a)) - Number(lasting(b)));
+    this.list.replaceChildren(...all.map((one) => this.row(one)));
     const { fish, plants } = this.residents.catalog;
     const group = (label: string, kind: string, names: string[]) => {
       const made = element("optgroup", { label });
@@ -111,9 +119,12 @@ export class PopulationPanel implements Panel {
     );
   }
 
-  /** Proposes how the chosen species lives. */
+  /** Proposes how the chosen species lives, or how many leaves it has. */
   private suggest(): void {
     const [kind, species] = this.what.value.split(":");
+    const leaves = kind === "plants" ? this.residents.catalog.leaves?.[species] : undefined;
+    this.foliage.hidden = leaves === undefined;
+    if (leaves !== undefined) this.leaves.value = String(leaves);
     this.role.hidden = kind !== "fish";
     this.role.value = this.residents.catalog.hunters.includes(species) ? "predator" : "prey";
   }
@@ -125,6 +136,11 @@ export class PopulationPanel implements Panel {
     const addition: Addition = { change: "add", kind, count, position: this.place() };
     if (species) addition.species = species;
     if (kind === "fish") addition.role = this.role.value as Role;
+    if (!this.foliage.hidden) {
+      const leaves = wanted(this.leaves);
+      if (leaves === null) return;
+      addition.leaves = leaves;
+    }
     this.session.send({ do: "add", addition });
   }
 
@@ -142,14 +158,14 @@ function wanted(field: HTMLInputElement): number | null {
   return good ? count : null;
 }
 
-function numberField(value: number, max: number, label: string, data: Record<string, string> = {}) {
+function numberField(value: number, max: number, label: string, data: Record<string, string> = {}, min = 0) {
   return element("input", {
     type: "number",
-    min: "0",
+    min: String(min),
     max: String(max),
     value: String(value),
     ariaLabel: label,
-    title: `0 to ${max}`,
+    title: `${min} to ${max}`,
     data,
   });
 }

@@ -56,11 +56,11 @@ class Grower:
             return {**self._grown(order), "seconds": time.perf_counter() - started}
         except BioscopeError as error:
             found = problems(str(error), self._file, "error")
-            told = [msgspec.to_builtins(one) for one in found]
-            return {"type": "failed", "number": order.number, "problems": told}
+            return _failed(order, found, too_large=isinstance(error, LimitError))
         except Exception as error:
             # A fault of the program, not of the text: the page says so, and the worker goes on.
-            return gave_up(order, f"{type(error).__name__}: {error}")
+            found = [Problem("error", f"{type(error).__name__}: {error}")]
+            return _failed(order, found, too_large=False)
 
     def _grown(self, order: Grow) -> dict[str, Any]:
         system = self._system(order.text)
@@ -158,5 +158,13 @@ def _packed(mesh: Mesh) -> dict[str, bytes]:
 
 def gave_up(order: Grow, message: str) -> dict[str, Any]:
     """Return the message that answers when no plant came of an order."""
-    problem = Problem("error", message)
-    return {"type": "failed", "number": order.number, "problems": [msgspec.to_builtins(problem)]}
+    return _failed(order, [Problem("error", message)], too_large=True)
+
+
+def _failed(order: Grow, found: list[Problem], *, too_large: bool) -> dict[str, Any]:
+    return {
+        "type": "failed",
+        "number": order.number,
+        "problems": [msgspec.to_builtins(one) for one in found],
+        "too_large": too_large,
+    }

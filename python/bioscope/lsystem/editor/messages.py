@@ -6,8 +6,7 @@ from typing import Annotated
 
 import msgspec
 
-from bioscope.errors import FormatError
-from bioscope.live.messages import Command, Join, Word
+from bioscope.live.messages import Command, Join, Word, decode_by
 
 LONGEST_TEXT = 500_000
 """Letters of a model."""
@@ -50,10 +49,5 @@ def decode(text: str | bytes) -> AnyCommand:
     FormatError
         If it is too long or none of the table.
     """
-    if len(text) > LARGEST_MESSAGE:
-        raise FormatError(f"message of {len(text)} bytes: expected at most {LARGEST_MESSAGE}")
-    try:
-        command: AnyCommand = _decoder.decode(text)
-    except (msgspec.DecodeError, ValueError) as error:
-        raise FormatError(f"malformed message: {error}") from None
+    command: AnyCommand = decode_by(_decoder, text, LARGEST_MESSAGE)
     return command
