@@ -5,7 +5,7 @@ import { startViewer } from "./start";
 
 /** The live view in a notebook, for anywidget. */
 function render({ model, el }: { model: WidgetModel; el: HTMLElement }): () => void {
-  el.style.cssText = "position: relative; height: 540px; background: #04121c";
+  el.style.cssText = `position: relative; height: ${model.get("height")}px; background: #04121c`;
   return startViewer(el, new Notebook(model), moduleScript(import.meta.url));
 }
 

@@ -47,6 +47,7 @@ def widget(world: World, *, height: int = 560) -> Any:
     """Return an anywidget that shows the world live; needs no port."""
     try:
         import anywidget
+        import traitlets
     except ImportError:
         raise MissingExtraError("world.show() in a notebook", "notebook") from None
     script = PAGE / "widget.js"
@@ -57,9 +58,9 @@ def widget(world: World, *, height: int = 560) -> Any:
         """A world, live, in a notebook's cell."""
 
         _esm = script.read_text(encoding="utf-8")
-        _css = f".cell-output-ipywidget-background > div {{ min-height: {height}px }}"
+        height = traitlets.Int(560).tag(sync=True)
 
-    view = LiveView()
+    view = LiveView(height=height)
     view.watch = Watch(world, view)
     return view
 

@@ -8,6 +8,8 @@ export interface WidgetModel {
   on(event: "msg:custom", callback: (content: unknown, buffers: DataView[]) => void): void;
   off(event: "msg:custom", callback: (content: unknown, buffers: DataView[]) => void): void;
   send(content: unknown): void;
+  /** Height of the view in pixels. */
+  get(name: "height"): number;
 }
 
 /** A world in a notebook's kernel: every buffer of a custom message is one message of the stream. */
