@@ -334,7 +334,7 @@ def test_what_the_retina_shows_is_what_is_seen():
     assert seen == len(places) - 1, "only the one straight behind the pillar is hidden"
 
 
-@pytest.mark.capability("TF-081")
+@pytest.mark.capability("TF-081", "AA-033")
 def test_brightness_is_the_mean_of_the_retinal_image():
     lookout = Lookout(eye=True)
     lookout.world.add(Things([lookout.place(at(a, 0.5)) for a in range(-120, 121, 30)], 0.2))
@@ -351,6 +351,9 @@ def test_brightness_is_the_mean_of_the_retinal_image():
         assert light == pytest.approx(mean / 0.5, rel=0.05)
         levels.append(light)
     assert levels[0] < levels[1] < levels[2]
+    # What the sky gives is there without the sun; the rest doubles with the sun's intensity.
+    sunlit = [level - levels[0] for level in levels]
+    assert sunlit[2] == pytest.approx(2 * sunlit[1], rel=0.01)
 
 
 @pytest.mark.capability("TF-079", "TF-077")

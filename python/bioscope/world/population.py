@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from bioscope.errors import UnknownNameError
+from bioscope.errors import InvalidValueError, UnknownNameError
 from bioscope.world import state
 
 if TYPE_CHECKING:
@@ -65,8 +65,11 @@ class Resident:
         Raises
         ------
         InvalidValueError
-            For a number that is too large, and populations that cannot change theirs.
+            For a number that is too large or below 0, and populations that cannot change theirs.
         """
+        if count < 0:
+            msg = f"count = {count}: expected 0 or more"
+            raise InvalidValueError(msg)
         self.world.order(self.name, {"number": count})
 
     def remove(self, individual: int) -> None:

@@ -24,6 +24,6 @@ pub use obstacle::Obstacle;
 pub use rasterizer::{Options, Prepared, Rasterizer, View, prepare};
 pub use relief::{Mound, ReefRelief};
 pub use rig::{Motion, Rig};
-pub use scene::{Batch, Material, Medium, Points, Scene, Sky, Sun, Texture};
+pub use scene::{Batch, Material, Medium, Mouth, Points, Scene, Sky, Sun, Texture};
 pub use terrain::Terrain;
 pub use transform::Transform;

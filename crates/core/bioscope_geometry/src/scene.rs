@@ -19,6 +19,8 @@ pub struct Scene {
     pub batches: Vec<Batch>,
     /// Things too small for a mesh.
     pub points: Vec<Points>,
+    /// Mouths that are open and suck.
+    pub mouths: Vec<Mouth>,
     /// The sun.
     pub sun: Sun,
     /// The light from everywhere else.
@@ -113,6 +115,21 @@ pub struct Points {
     pub opacity: f32,
     /// Whether they are clear balls of gas that glint at the rim (bubbles) rather than matt grains.
     pub glassy: bool,
+}
+
+/// An open mouth: what is free and small enough is drawn into it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Mouth {
+    /// Whose it is.
+    pub owner: Id,
+    /// Where it is, metres.
+    pub position: Vec3,
+    /// Direction in which it opens: a unit vector.
+    pub ahead: Vec3,
+    /// Length of the animal, metres.
+    pub body_length: f32,
+    /// How far it is open, 0 to 1.
+    pub gape: f32,
 }
 
 /// A picture wrapped on a mesh.

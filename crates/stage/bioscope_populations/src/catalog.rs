@@ -88,7 +88,33 @@ fn tuned(
 }
 
 fn read<T: DeserializeOwned>(kind: &str, options: &str) -> Result<T> {
-    serde_json::from_str(options).map_err(|error| Error::format(kind, error.to_string()))
+    serde_json::from_str(options).map_err(|error| {
+        let what = match field_at(options, error.column()) {
+            Some(field) => format!("option '{field}': {error}"),
+            None => error.to_string(),
+        };
+        Error::format(kind, what)
+    })
+}
+
+/// The outermost field of an object in one line of JSON in which this column lies, by which an error is understood.
+fn field_at(text: &str, column: usize) -> Option<&str> {
+    let (mut depth, mut quoted, mut escaped, mut begin) = (0, false, false, 0);
+    let (mut last, mut field) = (None, None);
+    for (index, byte) in text.bytes().enumerate().take(column) {
+        match byte {
+            _ if escaped => escaped = false,
+            b'\\' => escaped = quoted,
+            b'"' if quoted => (quoted, last) = (false, text.get(begin..index)),
+            b'"' => (quoted, begin) = (true, index + 1),
+            _ if quoted => {}
+            b'{' | b'[' => depth += 1,
+            b'}' | b']' => depth -= 1,
+            b':' if depth == 1 => field = last,
+            _ => {}
+        }
+    }
+    field
 }
 
 /// How a school of fish is asked for.
@@ -144,6 +170,9 @@ struct Roaming {
     food: Vec<Arc<str>>,
     /// By how much of its size each differs from the others; a tenth if not given.
     variation: Option<f32>,
+    /// Seconds from one decision of theirs to the next.
+    #[serde(default)]
+    reaction: f32,
     /// How they are moved; by muscles if they have such a mind, by geometric flight if not.
     body: Option<BodyKind>,
 }
@@ -191,6 +220,22 @@ pub fn fish_with_minds(
     let place = Some(Place { center: asked.center, radius: asked.radius });
     let usual = AnimalsOptions::default();
     let variation = asked.variation.unwrap_or(usual.variation);
-    let settings = AnimalsOptions { place, home: asked.home, variation };
+    let settings = AnimalsOptions { place, home: asked.home, variation, reaction: asked.reaction };
     Animals::new(animals.collect::<Result<Vec<_>>>()?, settings, kinds)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn errors_name_the_field_they_are_in() {
+        let text = r#"{"species":{"a\\":1,"b\"":[2,3]},"count":-1,"center":[0,0,0]}"#;
+        let at = |what: &str| field_at(text, text.find(what).unwrap() + what.len());
+        assert_eq!(at("[2"), Some("species"));
+        assert_eq!(at("-1"), Some("count"));
+        assert_eq!(at("[0,0"), Some("center"));
+        assert_eq!(field_at("{", 1), None);
+        assert_eq!(field_at("\"é", 3), None);
+    }
 }

@@ -11,6 +11,7 @@ pub mod placement;
 pub mod plants;
 pub mod scenery;
 pub mod stand;
+mod suction;
 
 use std::sync::Arc;
 

@@ -249,7 +249,8 @@ fn intention(wanted: &Bound<'_, PyDict>) -> PyResult<Intention> {
 
 /// Three finite numbers.
 pub fn vector(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Vec3> {
-    let vector = Vec3::from_array(value.extract()?);
+    let wrong = |_| to_python(Error::value(name, value, "three finite numbers"));
+    let vector = Vec3::from_array(value.extract().map_err(wrong)?);
     if vector.is_finite() {
         return Ok(vector);
     }
@@ -258,7 +259,8 @@ pub fn vector(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Vec3> {
 
 /// A finite number.
 pub fn number(name: &str, value: &Bound<'_, PyAny>) -> PyResult<f32> {
-    let number: f32 = value.extract()?;
+    let wrong = |_| to_python(Error::value(name, value, "a finite number"));
+    let number: f32 = value.extract().map_err(wrong)?;
     if number.is_finite() {
         return Ok(number);
     }

@@ -1,25 +1,27 @@
 //! How animals bite, swallow and are caught.
 //!
-//! An animal whose mouth is open, by its intention, bites what its attention rests on as soon as that is
-//! within reach of the mouth. See [`bites`](crate::bites) for how the bitten answers.
+//! An animal whose mouth is open, by its intention, draws in what floats before it (see [`suction`](crate::suction)). It bites
+//! what its attention rests on as soon as that has got into contact with the mouth, or else other food that has. See
+//! [`bites`](crate::bites) for how the bitten answers.
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
-use bioscope_core::{Event, Id, NOTHING, Percepts, SoundEvent, Vec3};
+use bioscope_core::{Event, Id, NOTHING, Percepts, Sighting, SoundEvent, Vec3};
+use bioscope_geometry::Mouth;
 use bioscope_motion::Body;
 use bioscope_world::Moment;
 
 use super::individual::{Individual, Record};
 use crate::bites::{BITTEN, CAUGHT, EATEN, Gone, bitten};
+use crate::suction::MOUTHFUL;
 
-/// How far the mouth lies ahead of the middle, and how far it reaches when it sucks, body lengths.
+/// How far the mouth lies ahead of the middle, body lengths.
 pub(super) const MOUTH: f32 = 0.48;
-const REACH: f32 = 0.15;
+/// Distance from the mouth within which a thing is in contact with it, body lengths.
+const CONTACT: f32 = 0.1;
 /// Opening from which it bites.
 const OPEN: f32 = 0.5;
-/// Largest thing that goes into a mouth, body lengths.
-const MOUTHFUL: f32 = 0.7;
 
 /// How many things each has swallowed in the last tick.
 pub(super) fn meals(events: &[Event]) -> BTreeMap<Id, u32> {
@@ -32,15 +34,30 @@ pub(super) fn meals(events: &[Event]) -> BTreeMap<Id, u32> {
     meals
 }
 
-/// Whom an animal bites by its intention: the target of an open mouth within reach.
+/// Whom an animal bites by its intention: what is in contact with its open mouth, its target before other food.
 pub(super) fn bite(record: &Record) -> Option<Id> {
     let (percepts, intention) = (&record.percepts, &record.intention);
     let target = intention.target.filter(|&target| target != NOTHING && intention.mouth >= OPEN)?;
     let length = percepts.body_length;
+    let goes_in = |one: &&Sighting| {
+        let distance = one.position.distance(Vec3::Z * (MOUTH * length)) - 0.5 * one.size;
+        distance <= CONTACT * length && one.size <= MOUTHFUL * length
+    };
     let mut noticed = percepts.smelled.iter().chain(&percepts.seen);
-    let morsel = noticed.find(|one| one.id == target)?;
-    let distance = morsel.position.distance(Vec3::Z * (MOUTH * length)) - 0.5 * morsel.size;
-    (distance <= REACH * length && morsel.size <= MOUTHFUL * length).then_some(target)
+    let morsel = noticed.find(|one| one.id == target).filter(goes_in);
+    morsel.or_else(|| percepts.smelled.iter().find(goes_in)).map(|one| one.id)
+}
+
+/// The mouth of an animal that holds it open.
+pub(super) fn open_mouth(id: Id, record: &Record, body: &dyn Body) -> Option<Mouth> {
+    let gape = record.intention.mouth.min(1.0);
+    if gape < OPEN || record.hook.is_some() {
+        return None;
+    }
+    let (placement, body_length) = (body.placement(), body.length());
+    let ahead = placement.rotation() * Vec3::Z;
+    let position = placement.position + ahead * (MOUTH * body_length);
+    Some(Mouth { owner: id, position, ahead, body_length, gape })
 }
 
 /// The food that it notices nearest to its mouth.

@@ -23,16 +23,18 @@ pub(super) fn hook(individuals: &mut [Individual], events: &[Event]) {
     }
 }
 
-/// Where the hooks are on which some of them hang.
-pub(super) fn places(individuals: &[Individual], scene: &Scene) -> BTreeMap<Id, Vec3> {
+/// Where the hooks are, at the end of this tick, on which some of them hang.
+pub(super) fn places(individuals: &[Individual], scene: &Scene, dt: f32) -> BTreeMap<Id, Vec3> {
     let hooks = individuals.iter().filter_map(|one| one.record.hook);
-    hooks.filter_map(|hook| Some((hook, place(hook, scene)?))).collect()
+    hooks.filter_map(|hook| Some((hook, place(hook, scene, dt)?))).collect()
 }
 
-fn place(id: Id, scene: &Scene) -> Option<Vec3> {
+/// The scene shows where a hook was: it has moved on since.
+fn place(id: Id, scene: &Scene, dt: f32) -> Option<Vec3> {
     scene.batches.iter().find_map(|batch| {
         let index = batch.ids.iter().position(|&one| one == id)?;
-        batch.transforms.get(index).map(|one| one.position)
+        let velocity = batch.velocities.get(index).copied().unwrap_or_default();
+        batch.transforms.get(index).map(|one| one.position + velocity * dt)
     })
 }
 

@@ -1,7 +1,7 @@
 use std::sync::Arc;
 
 use bioscope_core::{
-    Act, Annotation, Display, Error, Id, Intention, NOTHING, Percepts, Purpose, Result, Vec3,
+    Act, Annotation, Display, Error, Id, Intention, NOTHING, Percepts, Purpose, Quat, Result, Vec3,
 };
 use bioscope_dynamics::Influence;
 use bioscope_minds::Mind;
@@ -80,15 +80,32 @@ pub(super) struct Record {
     stage: Option<usize>,
     /// What somebody commands in place of its mind, which goes on feeling.
     pub steering: Option<Steering>,
+    /// World time of its last decision, seconds; none before the first.
+    decided: Option<f64>,
+    /// How it lay in the world when the intention's heading was last expressed in its own frame.
+    faced: Quat,
+    /// What it has swallowed since its last decision.
+    fed: u32,
 }
 
 impl Individual {
+    /// Whether it decides in this tick, if it takes `reaction` seconds from one decision to the next. Not all of a population
+    /// decide in the same tick.
+    fn is_due(&self, moment: &Moment, reaction: f32) -> bool {
+        let ticks = (reaction / moment.dt).round().max(1.0) as u64;
+        self.record.decided.is_none() || (moment.tick + u64::from(self.id)).is_multiple_of(ticks)
+    }
+
     pub fn sense(
         &mut self,
         view: &View,
         outlook: &Outlook,
-        (influence, fed): (Influence, u32),
+        (influence, fed, reaction): (Influence, u32, f32),
     ) -> Result<()> {
+        self.record.fed += fed;
+        if !self.is_due(&view.moment, reaction) {
+            return Ok(());
+        }
         let environment = view.environment;
         let placement = self.parts.body.placement();
         let medium = environment.medium();
@@ -108,10 +125,10 @@ impl Individual {
             sun: environment.sun(),
             temperature: environment.parameters.temperature,
             time: view.moment.time,
-            dt: view.moment.dt,
+            dt: self.record.decided.map_or(view.moment.dt, |last| (view.moment.time - last) as f32),
         };
         let mut percepts = surroundings.own_state();
-        percepts.fed = fed;
+        percepts.fed = std::mem::take(&mut self.record.fed);
         for sense in &mut self.parts.senses {
             sense.sense(&surroundings, &mut percepts)?;
         }
@@ -119,7 +136,8 @@ impl Individual {
         Ok(())
     }
 
-    pub fn decide(&mut self, moment: &Moment) -> Result<()> {
+    pub fn decide(&mut self, moment: &Moment, reaction: f32) -> Result<()> {
+        let is_due = self.is_due(moment, reaction);
         let record = &mut self.record;
         if record.hook.is_some() {
             record.annotations.clear();
@@ -127,7 +145,17 @@ impl Individual {
             record.intention = super::hooked::struggle(record, moment.time);
             return Ok(());
         }
+        if !is_due {
+            // It goes on in the same direction, however it turns meanwhile.
+            let attitude = self.parts.body.placement().rotation();
+            record.intention.heading = attitude.inverse() * record.faced * record.intention.heading;
+            record.faced = attitude;
+            (record.bite, record.news, record.stage) = (None, None, None);
+            return Ok(());
+        }
         let mut random = moment.random(self.id, DECISION);
+        record.decided = Some(moment.time);
+        record.faced = record.percepts.attitude;
         record.annotations.clear();
         let mind = &mut self.parts.mind;
         let mut intention = mind.decide(&record.percepts, &mut random, &mut record.annotations)?;

@@ -19,12 +19,16 @@ use super::saved::SavedIndividual;
 use super::{Animal, Kinds, feeding, hooked};
 use crate::bites::{CAUGHT, Gone};
 use crate::names::free_name;
+use crate::suction::Mouths;
 
 const BIRTH: Purpose = Purpose::new("birth of an animal");
 /// Most animals of one population: each has a mind of its own.
 const LARGEST_COUNT: usize = 100_000;
 /// Fewest animals worth sharing among threads.
 const WORTH_THREADS: usize = 4;
+
+/// Animals that one task poses.
+const TASK: usize = 32;
 
 /// A ball in which animals begin.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -44,11 +48,14 @@ pub struct AnimalsOptions {
     pub home: Option<Vec3>,
     /// By how much of its size each differs from its kin, 0 to 0.9; a share of it goes for color.
     pub variation: f32,
+    /// Seconds from one decision to the next, 0 for one in every tick. Between decisions nothing new is noticed, as if
+    /// senses and nerves took that time; fishes answer what they see after about a tenth of a second.
+    pub reaction: f32,
 }
 
 impl Default for AnimalsOptions {
     fn default() -> Self {
-        Self { place: None, home: None, variation: 0.1 }
+        Self { place: None, home: None, variation: 0.1, reaction: 0.0 }
     }
 }
 
@@ -63,6 +70,8 @@ pub struct Animals {
     pub(super) caught: Vec<Gone>,
     /// What the senses remember of the scene's meshes; no state.
     pub(super) memory: Arc<Memory>,
+    /// What acts on each of them in this tick, as they felt it before they moved; no state.
+    pub(super) felt: Vec<Influence>,
 }
 
 impl Animals {
@@ -76,7 +85,8 @@ impl Animals {
             .map(|parts| Individual { id: NOTHING, parts, record: Record::default() })
             .collect();
         let (patterns, caught) = (Vec::new(), Vec::new());
-        Ok(Self { options, individuals, patterns, kinds, caught, memory: Arc::default() })
+        let (memory, felt) = (Arc::default(), Vec::new());
+        Ok(Self { options, individuals, patterns, kinds, caught, memory, felt })
     }
 
     /// Runs `work` on every individual: in parallel, or in order where a part is the user's own. Of
@@ -101,6 +111,23 @@ impl Animals {
         view.environment.influence(&bodies.collect::<Vec<_>>(), view.moment.time)
     }
 
+    /// What moves each of them: what acts on it, and mouths that suck.
+    fn drives(&mut self, view: &View) -> Result<Vec<Influence>> {
+        // Nobody has moved since it was felt.
+        let mut influences = std::mem::take(&mut self.felt);
+        if influences.len() != self.individuals.len() {
+            influences = self.influences(view)?;
+        }
+        if !view.scene.mouths.is_empty() {
+            let mouths = Mouths::new(&view.scene.mouths);
+            for (one, influence) in self.individuals.iter().zip(&mut influences) {
+                let body = &one.parts.body;
+                influence.force += mouths.pull(one.id, body.placement().position, body.length());
+            }
+        }
+        Ok(influences)
+    }
+
     /// The batch of all animals that look like the `first`.
     fn batch(&self, name: String, first: &Individual) -> Batch {
         let look = &first.parts.look;
@@ -108,18 +135,17 @@ impl Animals {
             Batch::new(name, look.species.clone(), look.mesh.clone(), look.material.clone());
         batch.alive = true;
         let alike = self.individuals.iter().filter(|one| one.parts.look.equals(look));
+        let alike: Vec<&Individual> = alike.collect();
+        batch.ids = alike.iter().map(|one| one.id).collect();
+        batch.tints = alike.iter().map(|one| one.record.tint).collect();
+        batch.displays = alike.iter().map(|one| one.record.intention.display).collect();
+        let bodies = alike.par_iter().with_min_len(TASK).map(|one| &one.parts.body);
+        (batch.transforms, batch.velocities) =
+            bodies.clone().map(|body| (body.placement(), body.velocity())).unzip();
         let joints = look.joint_count();
-        for Individual { id, parts, record } in alike {
-            batch.ids.push(*id);
-            batch.transforms.push(parts.body.placement());
-            batch.velocities.push(parts.body.velocity());
-            batch.tints.push(record.tint);
-            batch.displays.push(record.intention.display);
-            if joints > 0 {
-                let start = batch.poses.len();
-                batch.poses.resize(start + joints, Transform::IDENTITY);
-                parts.body.pose(&mut batch.poses[start..]);
-            }
+        if joints > 0 {
+            batch.poses = vec![Transform::IDENTITY; joints * alike.len()];
+            bodies.zip(batch.poses.par_chunks_mut(joints)).for_each(|(body, pose)| body.pose(pose));
         }
         batch
     }
@@ -140,7 +166,7 @@ pub(super) fn be_born(
     options: &AnimalsOptions,
     growth: &Growth,
 ) {
-    let AnimalsOptions { place, home, variation } = *options;
+    let AnimalsOptions { place, home, variation, .. } = *options;
     let mut random = growth.moment.random(id, BIRTH);
     let body = &mut individual.parts.body;
     body.vary(variation, &mut random);
@@ -167,6 +193,9 @@ fn check_options(options: &AnimalsOptions) -> Result<()> {
     }
     if !(0.0..=0.9).contains(&options.variation) {
         return Err(Error::value("variation", options.variation, "0 to 0.9"));
+    }
+    if !(0.0..=2.0).contains(&options.reaction) {
+        return Err(Error::value("reaction", options.reaction, "0 to 2 seconds"));
     }
     Ok(())
 }
@@ -217,24 +246,28 @@ impl Population for Animals {
         let memory = self.memory.clone();
         let outlook = Outlook::new(view.scene, &memory);
         let meals = feeding::meals(view.events);
+        let reaction = self.options.reaction;
         self.each(|individual, index| {
             let fed = meals.get(&individual.id).copied().unwrap_or(0);
-            individual.sense(view, &outlook, (influences[index], fed))
-        })
+            individual.sense(view, &outlook, (influences[index], fed, reaction))
+        })?;
+        self.felt = influences;
+        Ok(())
     }
 
     fn decide(&mut self, view: &View) -> Result<()> {
-        self.each(|individual, _| individual.decide(&view.moment))
+        let reaction = self.options.reaction;
+        self.each(|individual, _| individual.decide(&view.moment, reaction))
     }
 
     fn advance(&mut self, view: &View) -> Result<()> {
-        let influences = self.influences(view)?;
+        let influences = self.drives(view)?;
         let dt = view.moment.dt;
         self.each(|individual, index| individual.drive(&influences[index], dt))?;
         let bodies = self.individuals.iter_mut().map(|one| &mut one.parts.body);
         let mut muscles: Vec<_> = bodies.filter_map(|body| body.muscles()).collect();
         MuscleSwimmer::advance_together(&mut muscles, dt);
-        let hooks = hooked::places(&self.individuals, view.scene);
+        let hooks = hooked::places(&self.individuals, view.scene, dt);
         self.each(|individual, _| {
             match individual.record.hook.map(|hook| hooks.get(&hook)) {
                 Some(Some(&hook)) => individual.hang(hook),
@@ -277,6 +310,11 @@ impl Population for Animals {
             for sound in &mut sounds[first..] {
                 (sound.source, sound.time) = (individual.id, moment.time);
             }
+            scene.mouths.extend(feeding::open_mouth(
+                individual.id,
+                &individual.record,
+                body.as_ref(),
+            ));
             events.extend(
                 individual.record.bite.map(|prey| feeding::bitten_by(individual.id, prey, moment)),
             );

@@ -42,7 +42,8 @@ impl Animals {
         let state: State = state::from_bytes(PART, bytes)?;
         let (options, memory) = (state.options, Arc::default());
         let (individuals, patterns, caught) = (Vec::new(), state.patterns, state.caught);
-        let mut animals = Self { options, individuals, patterns, kinds, caught, memory };
+        let felt = Vec::new();
+        let mut animals = Self { options, individuals, patterns, kinds, caught, memory, felt };
         for saved in state.individuals {
             let individual = animals.rebuild(saved)?;
             animals.individuals.push(individual);

@@ -11,6 +11,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::bites::{EATEN, Gone, bitten};
 use crate::names::free_name;
+use crate::suction::Mouths;
 
 const BIRTH: Purpose = Purpose::new("plankton birth");
 const SWIM: Purpose = Purpose::new("plankton swim");
@@ -21,6 +22,8 @@ const LARGEST_COUNT: usize = 1_000_000;
 const ENTRIES: usize = 64;
 /// Time in seconds after which a drifter's own motion has changed its direction.
 const SWIM_MEMORY: f32 = 1.5;
+/// Time in seconds in which the water stops one that a mouth has drawn: a small thing has hardly any way on it (choice).
+const STOPPING: f32 = 0.1;
 /// Distance in metres that is kept from the ground and from the surface.
 const CLEARANCE: f32 = 0.02;
 
@@ -90,6 +93,8 @@ struct Drifter {
     position: Vec3,
     /// Own motion through the water, metres per second.
     swimming: Vec3,
+    /// Motion through the water that open mouths have given it, metres per second.
+    drawn: Vec3,
     radius: f32,
     /// Whether it has left the box, or was eaten, in this tick.
     gone: bool,
@@ -238,7 +243,7 @@ impl Drifter {
         let share = random.uniform();
         let radius = math::mix(small, large, share * share);
         let swimming = random.in_ball() * options.parameters.swimming;
-        Self { id, position, swimming, radius, gone: false }
+        Self { id, position, swimming, drawn: Vec3::ZERO, radius, gone: false }
     }
 
     fn advance(&mut self, flow: Vec3, parameters: &PlanktonParameters, moment: Moment) {
@@ -248,7 +253,8 @@ impl Drifter {
         let strength = math::sqrt(3.0 * forget * (2.0 - forget));
         self.swimming =
             self.swimming * (1.0 - forget) + kick * (strength * 0.58 * parameters.swimming);
-        self.position += (flow * parameters.drift + self.swimming) * moment.dt;
+        self.drawn *= 1.0 - math::relaxation(moment.dt, STOPPING);
+        self.position += (flow * parameters.drift + self.swimming + self.drawn) * moment.dt;
     }
 }
 
@@ -303,7 +309,10 @@ impl Population for Plankton {
         let State { options, drifters, .. } = &mut self.state;
         let points = drifters.iter().map(|one| one.position).collect::<Vec<_>>();
         let influences = view.environment.influence(&points, view.moment.time)?;
+        let mouths = Mouths::new(&view.scene.mouths);
         for (drifter, influence) in drifters.iter_mut().zip(&influences) {
+            let pull = mouths.pull(drifter.id, drifter.position, 2.0 * drifter.radius);
+            drifter.drawn += pull * view.moment.dt;
             drifter.advance(influence.flow, &options.parameters, view.moment);
             let inside = drifter.position.clamp(options.low, options.high) == drifter.position;
             drifter.gone = !inside;

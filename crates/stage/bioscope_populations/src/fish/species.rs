@@ -413,12 +413,17 @@ impl FishSpecies {
 }
 
 /// A message with file, line and column.
+/// Most characters of a line that an error repeats.
+const LONGEST_QUOTE: usize = 60;
+
 fn located(error: &toml::de::Error, text: &str, file: &str) -> Error {
     let start = error.span().map_or(0, |span| span.start.min(text.len()));
     let before = &text.as_bytes()[..start];
     let line = 1 + before.iter().filter(|&&byte| byte == b'\n').count();
     let column = 1 + before.iter().rev().take_while(|&&byte| byte != b'\n').count();
-    Error::format(format!("{file}:{line}:{column}"), error.message())
+    let found = text.lines().nth(line - 1).unwrap_or_default().trim();
+    let found: String = found.chars().take(LONGEST_QUOTE).collect();
+    Error::format(format!("{file}:{line}:{column}"), format!("{} in `{found}`", error.message()))
 }
 
 #[cfg(test)]

@@ -75,10 +75,10 @@ struct State {
     bait: Id,
     /// Depth of the hook, metres; negative over the water.
     depth: f32,
-    /// Speed at which it sinks, metres per second.
-    sinking: f32,
     /// Lean of the line along x and z, radians.
     lean: [f32; 2],
+    /// How the hook moves, metres per second.
+    velocity: Vec3,
     /// Height of the water, metres.
     surface: f32,
     /// Who took the bait.
@@ -111,8 +111,8 @@ impl FishingLine {
             hook: NOTHING,
             bait: NOTHING,
             depth: -DRY,
-            sinking: 0.0,
             lean: [0.0; 2],
+            velocity: Vec3::ZERO,
             surface: 0.0,
             catch: None,
             landed: false,
@@ -151,6 +151,7 @@ impl FishingLine {
         let mut batch = Batch::new(name, species, mesh.clone(), Arc::new(material));
         batch.ids = vec![id];
         batch.transforms = vec![self.placement()];
+        batch.velocities = vec![self.state.velocity];
         batch
     }
 }
@@ -159,13 +160,11 @@ impl State {
     /// Lowers or hauls by one tick.
     fn wind(&mut self, moment: &Moment) {
         let FishingLineParameters { start, depth, sinking, hauling, .. } = self.options.parameters;
-        let before = self.depth;
         if self.catch.is_some() {
             self.depth = (self.depth - hauling * moment.dt).max(-DRY);
         } else if moment.time >= f64::from(start) {
             self.depth = (self.depth + sinking * moment.dt).min(depth.max(self.depth));
         }
-        self.sinking = (self.depth - before) / moment.dt;
     }
 
     /// Leans with the water, and with a catch that tugs.
@@ -208,6 +207,7 @@ impl Population for FishingLine {
         let influence = view.environment.influence(&[place], view.moment.time)?;
         self.state.wind(&view.moment);
         self.state.lean(influence[0].flow, &view.moment);
+        self.state.velocity = (self.placement().position - place) / view.moment.dt;
         Ok(())
     }
 
@@ -238,7 +238,6 @@ impl Population for FishingLine {
             let name = free_name(scene, species);
             let mut bait = self.batch(name, species, state.bait, &self.bait, [0.75, 0.26, 0.2]);
             bait.alive = true;
-            bait.velocities = vec![Vec3::NEG_Y * state.sinking];
             scene.batches.push(bait);
         }
         let (Some(catch), Some(news)) = (state.catch, state.news) else {

@@ -6,5 +6,7 @@
 
 mod line;
 mod tackle;
+#[cfg(test)]
+mod tests;
 
 pub use line::{FishingLine, FishingLineOptions, FishingLineParameters};

@@ -12,9 +12,11 @@
 //! | `options` | what can be said about a stand |
 //! | `shapes` | how do the shapes grow from the text |
 //! | `sway` | how does one plant answer the flow |
+//! | `parting` | who pushes it aside |
 //! | `population` | the five verbs |
 
 mod options;
+mod parting;
 mod population;
 pub(crate) mod shapes;
 mod sway;

@@ -22,6 +22,8 @@ parameters! {
         damping: f32 = 0.55, "1", 0.05..=2.0, "choice";
         /// How much the ends of leaves flutter.
         flutter: f32 = 0.16, "rad", 0.0..=1.0, "choice";
+        /// How far animals that pass push it aside, 1 being out of their way.
+        parting: f32 = 1.0, "1", 0.0..=4.0, "Tu 1996, 7.1.2; its size is a choice";
     }
 }
 

@@ -7,6 +7,7 @@ use bioscope_world::{Growth, Inspection, Order, Population, Publication, View, n
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
+use super::parting::{Passers, Stem};
 use super::shapes::{Shape, Shapes};
 use super::sway::{Stance, Sway};
 use super::{PlantsOptions, PlantsParameters};
@@ -169,12 +170,19 @@ impl Population for Plants {
             })
             .collect();
         let influences = view.environment.influence(&points, view.moment.time)?;
+        let passers = Passers::new(view.scene);
         let State { options, plants, .. } = &mut self.state;
+        let parameters = &options.parameters;
+        let bend = parameters.flexibility * 0.5 * math::PI;
         let answers = plants.par_iter_mut().with_min_len(SHARE).zip(&influences);
         answers.for_each(|(plant, influence)| {
-            let length = shapes.get(plant.variant as usize).map_or(1.0, |shape| shape.length);
-            let length = length * plant.size;
-            plant.sway.advance(influence.flow, length, view.moment.dt, &options.parameters);
+            let shape = shapes.get(plant.variant as usize);
+            let (length, height) = shape.map_or((1.0, 1.0), |shape| (shape.length, shape.height));
+            let dt = view.moment.dt;
+            plant.sway.advance(influence.flow, length * plant.size, dt, parameters);
+            let (root, height) = (plant.position, height * plant.size);
+            let stem = Stem { root, height, lean: plant.sway.tip(parameters), bend };
+            plant.sway.part(passers.aside(&stem) * parameters.parting, dt);
         });
         Ok(())
     }

@@ -11,6 +11,8 @@ use super::shapes::Bend;
 const LINKS: usize = 3;
 /// Time in seconds in which flutter follows the speed of the flow.
 const FLUTTER_LAG: f32 = 0.4;
+/// Time in seconds in which a plant gives way to what pushes it.
+const PARTING_TIME: f32 = 0.1;
 /// Flutters per second of a plant of 1 m.
 const FLUTTER_RATE: f32 = 1.9;
 
@@ -45,6 +47,19 @@ impl Sway {
             target = link.lean;
         }
         self.speed += (speed - self.speed) * math::relaxation(dt, FLUTTER_LAG);
+    }
+
+    /// Is pushed aside by something that passes: leans at least this far that way (1 being all it can lean, towards x and z).
+    pub(crate) fn part(&mut self, aside: Vec2, dt: f32) {
+        let amount = aside.length();
+        if amount < 1e-6 {
+            return;
+        }
+        let way = aside / amount;
+        let share = math::relaxation(dt, PARTING_TIME);
+        for link in &mut self.links {
+            link.lean += way * ((amount.min(1.0) - link.lean.dot(way)).max(0.0) * share);
+        }
     }
 
     /// Lean at a height (0 base, 1 tip), 1 being a quarter turn at full flexibility.

@@ -46,6 +46,8 @@ impl StandParameters {
             period: self.period,
             damping: self.damping,
             flutter: self.flutter,
+            // Trunks do not give way to what passes.
+            parting: 0.0,
         }
     }
 }

@@ -131,6 +131,9 @@ fn refuses_what_makes_no_sense() {
     step(&mut world, 4);
     let bytes = world.populations()[0].population.save().unwrap();
     for cut in [0, 1, bytes.len() / 2, bytes.len() - 1] {
-        assert!(Stand::from_saved(&bytes[..cut], |name| Err(missing(name))).is_err());
+        assert!(
+            Stand::from_saved(&bytes[..cut], |name| Err(crate::stand::model::missing(name)))
+                .is_err()
+        );
     }
 }

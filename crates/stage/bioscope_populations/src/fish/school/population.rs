@@ -20,11 +20,14 @@ use crate::animals::way_out;
 use crate::bites::{CAUGHT, Gone, bitten};
 use crate::fish::FishForm;
 use crate::names::free_name;
+use crate::suction::Mouths;
 
 const BIRTH: Purpose = Purpose::new("birth of a schooling fish");
 const COURSE: Purpose = Purpose::new("first course of a school");
 /// How much the first headings of fishes differ from their school's, as a share of it.
 const HEADINGS: f32 = 0.5;
+/// Seconds for which the pull of a mouth acts on a fish that it draws in: a flock has no inertia to resist with.
+const CARRIED: f32 = 0.1;
 /// Fishes that one task handles.
 const TASK: usize = 64;
 /// Ticks from one count of groups to the next.
@@ -352,9 +355,15 @@ impl Population for FishSchool {
 
     fn sense(&mut self, view: &View) -> Result<()> {
         self.look_out(view);
+        let length = self.body_length();
         let influences = view.environment.influence(self.flock.positions(), view.moment.time)?;
         self.scratch.flows.clear();
         self.scratch.flows.extend(influences.iter().map(|one| one.flow));
+        let mouths = Mouths::new(&view.scene.mouths);
+        let all = self.flock.ids().iter().zip(self.flock.positions()).zip(&self.fishes);
+        for (flow, ((&id, &place), fish)) in self.scratch.flows.iter_mut().zip(all) {
+            *flow += mouths.pull(id, place, length * fish.scale) * CARRIED;
+        }
         self.with_surroundings(view, |flock, surroundings| {
             flock.sense(surroundings);
             Ok(())
