@@ -1,5 +1,9 @@
 """Bodies of control points: halves that meet, fins on the edge, a picture that becomes a fish."""
 
+import json
+import re
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -134,6 +138,16 @@ def test_a_picture_becomes_a_fish_with_its_outline_and_texture(form):
     off = places - pictured * scale
     assert np.ptp(off, axis=0).max() < 0.02 * 0.3
     assert np.isclose(np.ptp(mesh.positions[:half, 2]), 0.3, rtol=0.02)
+
+
+def test_the_guide_runs_as_written(tmp_path, monkeypatch):
+    guide = Path(__file__).parents[2] / "docs/guides/fish-from-a-picture.md"
+    code = re.findall(r"```python\n(.*?)```", guide.read_text(encoding="utf-8"), re.S)[0]
+    (tmp_path / "tang-body.json").write_text(json.dumps({"coordinates": fitted().tolist()}))
+    monkeypatch.chdir(tmp_path)
+    names = {}
+    exec(code, names)
+    assert len(names["mesh"].triangles) > 2000
 
 
 @pytest.mark.parametrize(
