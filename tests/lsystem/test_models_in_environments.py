@@ -169,10 +169,13 @@ def test_two_trees_grow_away_from_each_other():
     assert right >= 0.5
 
 
-def test_two_root_systems_part_in_one_field():
+def main_roots_apart(steps: int, spread: float, seeds: range, stray: float) -> np.ndarray:
+    """Return how far apart two main roots end, by seed; `stray` is how much they turn."""
+    text = gallery.text("roots_3d", SPREAD=spread)
+    system = bio.LSystem(text.replace("Dev[N] = {8,", f"Dev[N] = {{{stray},"))
     apart = []
-    for seed in range(1, 7):
-        string = bio.environments.derive(gallery.read("roots_3d"), 110, seed=seed)
+    for seed in seeds:
+        string = bio.environments.derive(system, steps, seed=seed)
         symbols = np.array(string.symbols)[string.kinds]
         depth = np.cumsum((symbols == "[").astype(int) - (symbols == "]"))
         plant = np.cumsum((symbols == "[") & (depth == 1)) - 1
@@ -180,6 +183,13 @@ def test_two_root_systems_part_in_one_field():
         ends = bio.Turtle().interpret(string).segments.end
         tips = [ends[(depth[strokes] == 1) & (plant[strokes] == one)][-1] for one in (0, 1)]
         assert max(tip[1] for tip in tips) < -15, "downward"
-        apart.append(abs(tips[0][0] - tips[1][0]))
-    # They stand 4 apart.
-    assert np.mean(apart) > 4.5
+        apart.append(np.hypot(*(tips[0] - tips[1])[[0, 2]]))
+    return np.array(apart)
+
+
+@pytest.mark.capability("PL-432")
+def test_main_roots_part_the_more_the_faster_their_rootlets_spread():
+    start = 4.0
+    slow, fast = (main_roots_apart(115, spread, range(1, 21), 2.5) for spread in (0.03, 0.5))
+    assert fast.mean() > slow.mean() + 0.3
+    assert slow.mean() > start + 2

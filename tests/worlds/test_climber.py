@@ -4,6 +4,9 @@ import numpy as np
 import pytest
 
 import bioscope as bio
+from bioscope.lsystem import Segments, Turtle
+from bioscope.populations.plants import model_path
+from bioscope.worlds.climber import world as climber
 from bioscope.worlds.climber.world import POLES, SIZE, vine
 
 
@@ -44,3 +47,64 @@ def test_free_stems_circle_and_each_pole_gets_its_vine():
     assert steps.max() < 0.12, "it moves without jumps"
     assert np.ptp(tips[:, 0]) > 0.03
     assert sum(name.startswith("vine-") for name in world.populations) == len(POLES)
+
+
+STEM, REACH, CROWD = 0.012, 0.16, 18
+"""Of the ivy: from the bark to its stem's middle, how far it feels others, how many stop it."""
+
+
+def off_the_wood(points: np.ndarray, wood: Segments) -> np.ndarray:
+    """Return the distance of points from the surface of the nearest limb."""
+    way = wood.end - wood.start
+    along = ((points[:, None] - wood.start) * way).sum(axis=2) / (way**2).sum(axis=1)
+    along = along.clip(0, 1)
+    axis = wood.start + way * along[..., None]
+    radius = wood.radii[:, 0] + np.diff(wood.radii)[:, 0] * along
+    return (np.linalg.norm(points[:, None] - axis, axis=2) - radius).min(axis=1)
+
+
+def creeping(wood: Segments, crowd: float, steps: int = 260) -> np.ndarray:
+    """Return the joints of ivy on a tree; so many pieces near a tip stop it."""
+    text = model_path("ivy").read_text().replace("#define CROWD 18", f"#define CROWD {crowd}")
+    begin = f"axiom: -(90)f({wood.radii[0, 0] + STEM})+(90)A(0)"
+    system = bio.LSystem(text.replace("axiom: A(0)", begin))
+    limbs = bio.environments.Limbs(wood, stem=STEM, reach=REACH)
+    string = bio.environments.derive(system, steps, environment=limbs)
+    return Turtle().interpret(string).segments.end
+
+
+def neighbors(points: np.ndarray) -> np.ndarray:
+    distance = np.linalg.norm(points[:, None] - points, axis=2)
+    return (distance < REACH).sum(axis=1) - 1
+
+
+@pytest.mark.capability("PL-444")
+def test_ivy_follows_trunk_and_branches_and_keeps_off_its_own():
+    wood = Turtle().interpret(climber.tree(seed=1)).segments
+    joints = creeping(wood, CROWD)
+    trunk = float(wood.radii[0, 0])
+    off = off_the_wood(joints, wood)
+    assert off.min() > 0, "never in the wood"
+    assert off.max() < 2 * trunk
+    assert np.quantile(off, 0.99) < 2 * STEM
+    # It has gone up the trunk, and out along branches.
+    assert joints[:, 1].max() > 0.6 * wood.end[:, 1].max()
+    assert np.hypot(joints[:, 0], joints[:, 2]).max() > 5 * trunk
+    # A tip goes on where at most CROWD pieces are near, and others may come after it.
+    assert neighbors(joints).max() < 3 * CROWD
+    heedless = creeping(wood, 1e9, steps=60)
+    heeding = creeping(wood, CROWD, steps=60)
+    assert neighbors(heedless).max() > 2 * neighbors(heeding).max()
+
+
+def test_the_ivy_of_the_world_climbs_its_tree():
+    world = bio.World(seed=1, dt=1 / 30)
+    grown = climber.tree(seed=1)
+    world.add(climber.ivy(grown, climber.TREE, start=200), "ivy")
+    wood = Turtle().interpret(grown).segments
+    for batch in world.scene.batches:
+        if batch.name.split("/")[1].isdigit():
+            points = batch.positions[0] + batch.mesh.positions * batch.scales[0]
+            own = (points - (climber.TREE[0], 0.0, climber.TREE[1])) / climber.TREE_SIZE
+            assert off_the_wood(own[::7], wood).max() < 0.1
+    assert world.statistics()["ivy.tallest_m"] > 1.0
