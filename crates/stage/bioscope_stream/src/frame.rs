@@ -94,21 +94,17 @@ pub fn frame(
 
 fn moving(batch: &Batch, laid: &Laid) -> Option<MovingMessage> {
     let mut message = MovingMessage::default();
-    let changed = |part: fn(&Transform) -> [f32; 4]| {
-        let pairs = laid.transforms.iter().zip(&batch.transforms);
-        laid.transforms.len() != batch.transforms.len()
-            || pairs.into_iter().any(|(old, new)| part(old) != part(new))
-    };
-    if changed(|one| one.position.extend(0.0).to_array()) {
+    let [is_moved, is_turned, is_sized] = changes(&laid.transforms, &batch.transforms);
+    if is_moved {
         let positions = || batch.transforms.iter().map(|one| one.position);
         let (low, high) = quantize::bounds(positions());
         message.r#box = Some(corners(low, high));
         message.positions = Some(quantize::points(positions(), low, high).into());
     }
-    if changed(|one| one.rotation().to_array()) {
+    if is_turned {
         message.rotations = Some(quantize::rotations(batch.transforms.iter()).into());
     }
-    if changed(|one| [one.scale; 4]) {
+    if is_sized {
         let (size, scales) = quantize::scales(batch.transforms.iter().map(|one| one.scale));
         (message.size, message.scales) = (Some(size), Some(scales.into()));
     }
@@ -121,6 +117,20 @@ fn moving(batch: &Batch, laid: &Laid) -> Option<MovingMessage> {
     let MovingMessage { positions, rotations, scales, poses, .. } = &message;
     let any = [positions, rotations, scales, poses].into_iter().any(Option::is_some);
     any.then_some(message)
+}
+
+/// Whether any has another position, rotation, scale.
+fn changes(old: &[Transform], new: &[Transform]) -> [bool; 3] {
+    let mut changes = [old.len() != new.len(); 3];
+    for (old, new) in old.iter().zip(new) {
+        changes[0] |= old.position != new.position;
+        changes[1] |= old.rotation() != new.rotation();
+        changes[2] |= old.scale != new.scale;
+        if changes == [true; 3] {
+            break;
+        }
+    }
+    changes
 }
 
 fn drifting(points: &Points) -> DriftingMessage {

@@ -49,7 +49,8 @@ pub fn layout(scene: &Scene, batches: Vec<u64>, revision: u64) -> Vec<u8> {
         opacity: points.opacity,
         glassy: points.glassy,
     });
-    let (low, high) = bounds(scene.batches.iter().flat_map(corners));
+    let (low, high) =
+        bounds(scene.batches.iter().filter(|one| !one.ids.is_empty()).flat_map(corners));
     encode(&LayoutMessage {
         r#type: "layout",
         revision,
@@ -62,16 +63,14 @@ pub fn layout(scene: &Scene, batches: Vec<u64>, revision: u64) -> Vec<u8> {
     })
 }
 
-/// Points that span a batch: the box of its mesh around each instance, in any rotation.
-fn corners(batch: &Batch) -> impl Iterator<Item = bioscope_core::Vec3> + '_ {
+/// Points that span a batch: the box round its instances, each of them in any rotation.
+fn corners(batch: &Batch) -> [bioscope_core::Vec3; 2] {
     let (low, high) = batch.mesh.bounds();
-    let (center, radius) = ((low + high) / 2.0, (high - low).length() / 2.0);
-    let exact = batch.transforms.len() == 1 && batch.transforms[0] == Transform::IDENTITY;
-    batch.transforms.iter().flat_map(move |transform| {
-        if exact {
-            return [low, high];
-        }
-        let (middle, reach) = (transform.point(center), radius * transform.scale);
-        [middle - reach, middle + reach]
-    })
+    if batch.transforms.len() == 1 && batch.transforms[0] == Transform::IDENTITY {
+        return [low, high];
+    }
+    let (least, greatest) = bounds(batch.transforms.iter().map(|one| one.position));
+    let largest = batch.transforms.iter().map(|one| one.scale).fold(0.0, f32::max);
+    let reach = largest * ((low + high).length() + (high - low).length()) / 2.0;
+    [least - reach, greatest + reach]
 }

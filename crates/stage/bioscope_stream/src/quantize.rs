@@ -16,16 +16,20 @@ pub fn bounds(points: impl Iterator<Item = Vec3>) -> (Vec3, Vec3) {
 /// Points as three u16 each, 0 to 65535 across the box.
 pub fn points(points: impl Iterator<Item = Vec3>, low: Vec3, high: Vec3) -> Vec<u8> {
     let scale = 65535.0 / (high - low).max(Vec3::splat(1e-6));
-    let whole = points.flat_map(|point| {
-        let steps = ((point - low) * scale).round().clamp(Vec3::ZERO, Vec3::splat(65535.0));
-        steps.to_array().map(|step| step as u16)
-    });
-    whole.flat_map(u16::to_le_bytes).collect()
+    let mut bytes = Vec::with_capacity(6 * points.size_hint().0);
+    for point in points {
+        for step in ((point - low) * scale).to_array() {
+            bytes.extend_from_slice(&unsigned(step).to_le_bytes());
+        }
+    }
+    bytes
 }
 
 /// Rotations as four i16 each, quaternion × 32767.
 pub fn rotations<'a>(transforms: impl Iterator<Item = &'a Transform>) -> Vec<u8> {
-    transforms.flat_map(quaternion).flat_map(i16::to_le_bytes).collect()
+    let mut bytes = Vec::with_capacity(8 * transforms.size_hint().0);
+    transforms.for_each(|one| push_rotation(&mut bytes, one));
+    bytes
 }
 
 /// Sizes as one u16 each, 0 to 65535 from the least to the greatest, which come first.
@@ -34,33 +38,45 @@ pub fn scales(scales: impl Iterator<Item = f32> + Clone) -> ([f32; 2], Vec<u8>) 
         .clone()
         .fold((f32::INFINITY, f32::NEG_INFINITY), |(a, b), one| (a.min(one), b.max(one)));
     let step = 65535.0 / (greatest - least).max(1e-12);
-    let whole = scales.map(|one| ((one - least) * step).round().clamp(0.0, 65535.0) as u16);
-    ([least, greatest], whole.flat_map(u16::to_le_bytes).collect())
+    let mut bytes = Vec::with_capacity(2 * scales.size_hint().0);
+    for one in scales {
+        bytes.extend_from_slice(&unsigned((one - least) * step).to_le_bytes());
+    }
+    ([least, greatest], bytes)
 }
 
 /// Unit vectors as three i16 each, × 32767.
 pub fn directions(directions: &[Vec3]) -> Vec<u8> {
-    let whole = directions.iter().flat_map(|one| one.to_array().map(|part| signed(part * LARGEST)));
-    whole.flat_map(i16::to_le_bytes).collect()
+    let mut bytes = Vec::with_capacity(6 * directions.len());
+    for one in directions {
+        one.to_array().iter().for_each(|part| push(&mut bytes, part * LARGEST));
+    }
+    bytes
 }
 
 /// Joint poses as seven i16 each: position × 32767 / extent, quaternion × 32767.
 pub fn poses<'a>(transforms: impl Iterator<Item = &'a Transform>, extent: f32) -> Vec<u8> {
     let scale = LARGEST / extent.max(1e-6);
-    let whole = transforms.flat_map(|one| {
-        let [x, y, z] = one.position.to_array().map(|part| signed(part * scale));
-        let [qx, qy, qz, qw] = quaternion(one);
-        [x, y, z, qx, qy, qz, qw]
-    });
-    whole.flat_map(i16::to_le_bytes).collect()
+    let mut bytes = Vec::with_capacity(14 * transforms.size_hint().0);
+    for one in transforms {
+        one.position.to_array().iter().for_each(|part| push(&mut bytes, part * scale));
+        push_rotation(&mut bytes, one);
+    }
+    bytes
 }
 
-fn quaternion(transform: &Transform) -> [i16; 4] {
-    transform.rotation().to_array().map(|part| signed(part * LARGEST))
+fn push_rotation(bytes: &mut Vec<u8>, transform: &Transform) {
+    transform.rotation().to_array().iter().for_each(|part| push(bytes, part * LARGEST));
 }
 
-fn signed(number: f32) -> i16 {
-    number.round().clamp(-LARGEST, LARGEST) as i16
+fn push(bytes: &mut Vec<u8>, number: f32) {
+    // To the nearest: adding a half and cutting off is much quicker than to round.
+    let whole = (number + 0.5_f32.copysign(number)).clamp(-LARGEST, LARGEST) as i16;
+    bytes.extend_from_slice(&whole.to_le_bytes());
+}
+
+fn unsigned(number: f32) -> u16 {
+    (number + 0.5).clamp(0.0, 65535.0) as u16
 }
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! What is seen of one plant: a bending mesh of its wood, and where its leaves are on it.
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use bioscope_core::{Mat3, Quat, Result, Vec3, math};
@@ -92,24 +93,73 @@ impl Look {
         self.mesh.triangles.is_empty() && self.leaves.is_empty()
     }
 
-    /// Where a leaf is when the joints have these poses; none if they rest.
-    pub fn leaf(&self, leaf: &Leaf, poses: &[Transform]) -> Transform {
-        if poses.is_empty() {
-            return leaf.place;
-        }
-        let mut position = Vec3::ZERO;
-        let mut turn = (0.0, Quat::IDENTITY);
-        for (&joint, &weight) in leaf.joints.iter().zip(&leaf.weights) {
-            if weight > 0.0 {
-                let pose = &poses[joint as usize];
-                let rest = self.rests[joint as usize];
-                position += pose.point(leaf.place.position - rest) * weight;
-                if weight > turn.0 {
-                    turn = (weight, pose.rotation());
+    /// Ranges of leaves that follow each other and have one form.
+    pub fn runs(&self) -> impl Iterator<Item = (Form, Range<usize>)> + '_ {
+        let mut start = 0;
+        self.leaves.chunk_by(|one, next| one.form == next.form).map(move |run| {
+            let range = start..start + run.len();
+            start = range.end;
+            (run[0].form, range)
+        })
+    }
+
+    /// Where the leaves are when the plant stands so and its joints have these poses; none if they rest.
+    pub fn leaves(&self, body: &Transform, poses: &[Transform]) -> Vec<Transform> {
+        let stance = Placing::of(body, Vec3::ZERO);
+        let joints: Vec<Placing> = poses
+            .iter()
+            .zip(&self.rests)
+            .map(|(pose, &rest)| stance.after(&Placing::of(pose, rest)))
+            .collect();
+        let size = body.scale;
+        let placed = |leaf: &Leaf| {
+            let Leaf { place, joints: held_by, weights, .. } = leaf;
+            if joints.is_empty() {
+                let position = stance.turn * place.position + stance.shift;
+                return Transform::new(
+                    position,
+                    stance.rotation * place.rotation(),
+                    size * place.scale,
+                );
+            }
+            let mut position = Vec3::ZERO;
+            let mut turn = (0.0, stance.rotation);
+            for (&joint, &weight) in held_by.iter().zip(weights) {
+                if weight > 0.0 {
+                    let joint = &joints[joint as usize];
+                    position += (joint.turn * place.position + joint.shift) * weight;
+                    if weight > turn.0 {
+                        turn = (weight, joint.rotation);
+                    }
                 }
             }
+            Transform::new(position, turn.1 * place.rotation(), size * place.scale)
+        };
+        self.leaves.iter().map(placed).collect()
+    }
+}
+
+/// A placement as a matrix, quicker for many points.
+struct Placing {
+    turn: Mat3,
+    shift: Vec3,
+    rotation: Quat,
+}
+
+impl Placing {
+    /// That of what rests at `rest` and has come to `pose`.
+    fn of(pose: &Transform, rest: Vec3) -> Self {
+        let turn = Mat3::from_quat(pose.rotation()) * pose.scale;
+        Self { turn, shift: pose.position - turn * rest, rotation: pose.rotation() }
+    }
+
+    /// First the inner one, then this.
+    fn after(&self, inner: &Self) -> Self {
+        Self {
+            turn: self.turn * inner.turn,
+            shift: self.turn * inner.shift + self.shift,
+            rotation: self.rotation * inner.rotation,
         }
-        Transform::new(position, turn.1 * leaf.place.rotation(), leaf.place.scale)
     }
 }
 

@@ -88,26 +88,30 @@ impl Stand {
     }
 
     fn show_leaves(&self, posed: &[Posed], species: &Arc<str>, publication: &mut Publication) {
-        let placed: Vec<Vec<(Form, Transform)>> = posed
-            .par_iter()
-            .map(|one| {
-                let place = |leaf| joined(&one.body, &one.look.leaf(leaf, &one.poses));
-                one.look.leaves.iter().map(|leaf| (leaf.form, place(leaf))).collect()
-            })
-            .collect();
+        let placed: Vec<Vec<Transform>> =
+            posed.par_iter().map(|one| one.look.leaves(&one.body, &one.poses)).collect();
+        let mut counts: BTreeMap<Form, usize> = BTreeMap::new();
+        for one in posed {
+            one.look.runs().for_each(|(form, run)| *counts.entry(form).or_default() += run.len());
+        }
         let mut batches: BTreeMap<Form, Batch> = BTreeMap::new();
-        for (one, leaves) in posed.iter().zip(placed) {
-            for (form, place) in leaves {
-                let batch = batches.entry(form).or_insert_with(|| {
-                    let Form { name, color, texture, proportions: [width, thickness] } = form;
-                    let name = format!("{species}/{name}{color}.{texture}.{width}.{thickness}");
-                    let name = free_name(&publication.scene, &name);
-                    let mesh = self.shared.forms.get(&form).cloned().unwrap_or_default();
-                    Batch::new(name, species.clone(), mesh, self.shared.leaves.clone())
-                });
-                batch.ids.push(one.plant.id);
-                batch.transforms.push(place);
-                batch.tints.push(one.plant.tint);
+        for (form, count) in counts {
+            let Form { name, color, texture, proportions: [width, thickness] } = form;
+            let name = format!("{species}/{name}{color}.{texture}.{width}.{thickness}");
+            let name = free_name(&publication.scene, &name);
+            let mesh = self.shared.forms.get(&form).cloned().unwrap_or_default();
+            let mut batch = Batch::new(name, species.clone(), mesh, self.shared.leaves.clone());
+            batch.ids.reserve(count);
+            batch.transforms.reserve(count);
+            batch.tints.reserve(count);
+            batches.insert(form, batch);
+        }
+        for (one, places) in posed.iter().zip(placed) {
+            for (form, run) in one.look.runs() {
+                let Some(batch) = batches.get_mut(&form) else { continue };
+                batch.ids.resize(batch.ids.len() + run.len(), one.plant.id);
+                batch.tints.resize(batch.tints.len() + run.len(), one.plant.tint);
+                batch.transforms.extend_from_slice(&places[run]);
             }
         }
         publication.scene.batches.extend(batches.into_values().map(|mut batch| {
@@ -180,10 +184,4 @@ impl Stand {
             });
         }
     }
-}
-
-/// First the inner placement, then the outer one.
-fn joined(outer: &Transform, inner: &Transform) -> Transform {
-    let rotation = outer.rotation() * inner.rotation();
-    Transform::new(outer.point(inner.position), rotation, outer.scale * inner.scale)
 }
