@@ -279,10 +279,17 @@ def derive(
 
     MODEL is a file (bush.l, ./bush) or, without folder and ending, a name from `bioscope list`.
     """
-    from bioscope.lsystem import LSystem
+    from bioscope.lsystem import Animation, LSystem
     from bioscope.populations.plants import model_path
 
-    system = LSystem.read(model_path(model))
+    path = model_path(model)
+    if check and path.suffix == ".lm":
+        doubtful = Animation.check(path)
+        for remark in doubtful:
+            say(remark)
+        say(f"{model}: {len(doubtful) or 'no'} doubtful places")
+        return
+    system = LSystem.read(path)
     for warning in system.warnings:
         say(warning)
     if check:

@@ -297,6 +297,33 @@ def test_rules_hear_who_sounds():
     assert silent.layers[0].string[1].growth[0] == -1
 
 
+@pytest.mark.capability("NA-066")
+def test_spoken_words_are_sounds():
+    head = header("AUDIOport_host 4711 listener.example", seconds=0.1)
+    axiom = "b () (1000) () () (?61) (?60) ()"
+    made = animation(axiom, head=head)
+    assert made.recognizer == (4711, "listener.example")
+    vocabulary = bio.lsystem.animation.sounds.VOCABULARY
+    assert sorted(vocabulary.values()) == list(range(29, 59))
+    assert (vocabulary["move right"], vocabulary["one"], vocabulary["exit"]) == (29, 48, 58)
+    for word, number in vocabulary.items():
+        made = animation(axiom, head=head, sounds=dict.fromkeys(range(100), 0.25))
+        made.say(word)
+        heard = []
+        for _ in range(5):
+            made.advance()
+            heard.append(made.layers[0].string[0].growth)
+        # One event, heard from the frame after it was said until it ends.
+        assert heard == [(-1, 0, 0), (number, 1, 0), (number, 1, 0), (-1, 0, 0), (-1, 0, 0)], word
+    # The camera filters its own words out; others are heard.
+    filtered = animation(axiom + "\nl () () () (11) () () ()", head=head)
+    for word in ("move", "seven", "strawberry"):
+        filtered.say(word)
+    filtered.advance()
+    assert [one.number for one in filtered.air.sounds] == [vocabulary["seven"]]
+    assert filtered.remarks == ["nobody knows the word 'strawberry'"]
+
+
 @pytest.mark.capability("NA-052")
 def test_rules_know_the_active_automaton():
     option = "actorNbr_automata 0 0 9 state 3\nactorNbr_automata 0 0 19 align 1 2 3"

@@ -180,3 +180,22 @@ def test_unknown_options_and_sides_are_refused():
         draw("F", colour=3)
     with pytest.raises(bio.BioscopeError, match="3 to 64"):
         draw("F").mesh(sides=2)
+
+
+def test_balls_are_round_and_closed():
+    text = "axiom: A\nA --> f(2)@O(1.5)[+(90)f(4)@O(0.5)]"
+    drawn = bio.Turtle().interpret(bio.LSystem(text, "balls.l").derive(1))
+    mesh = drawn.mesh()
+    for center, radius in [((0, 2, 0), 1.5), ((-4, 2, 0), 0.5)]:
+        away = np.linalg.norm(mesh.positions - center, axis=1)
+        own = away < 2 * radius
+        assert away[own] == pytest.approx(radius, rel=0.02)
+        corners = mesh.positions - center
+        a, b, c = (corners[mesh.triangles[own[mesh.triangles[:, 0]], at]] for at in range(3))
+        volume = np.einsum("ij,ij->i", a, np.cross(b, c)).sum() / 6
+        # An inscribed polyhedron that is nearly the ball, and closed.
+        assert 0.9 < volume / (4 / 3 * np.pi * radius**3) < 1
+        outward = np.einsum("ij,ij->i", mesh.normals[own], corners[own] / away[own, None])
+        # All but the tiny caps at the poles looks smooth.
+        assert outward.min() > 0.7
+        assert np.median(outward) > 0.97

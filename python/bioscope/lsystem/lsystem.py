@@ -116,7 +116,7 @@ class LSystem:
         Raises
         ------
         FormatError
-            If a production cannot be evaluated, or the string outgrows the limits (200 million
+            If a production cannot be evaluated, or the string outgrows the limits (500 million
             modules, 2 GiB); the message names the production.
         UnknownNameError
             For an unknown option.

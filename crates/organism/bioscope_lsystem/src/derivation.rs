@@ -203,8 +203,17 @@ impl<'a> Derivation<'a> {
         let oddities = self.machine.oddities;
         let remark =
             |count: u64, what: &str| (count > 0).then(|| format!("{what} ({count} times)"));
+        let divided = self.system.productions().find(|production| {
+            production.programs().any(|program| oddities.divided_first(program))
+        });
+        let division = match divided {
+            Some(production) => {
+                format!("{}: division by zero in '{}'", production.place, production.text)
+            }
+            None => "division by zero".into(),
+        };
         [
-            remark(oddities.divisions_by_zero, "division by zero"),
+            remark(oddities.divisions_by_zero, &division),
             remark(oddities.indices_out_of_range, "index out of the range of its array"),
         ]
         .into_iter()

@@ -40,7 +40,7 @@ impl fmt::Display for Diagnostic {
         let column = self.place.column as usize - 1;
         let first = column.saturating_sub(SHOWN);
         let shown: String = self.source_line.chars().skip(first).take(2 * SHOWN).collect();
-        let shown = shown.replace('\t', " ");
+        let shown = shown.replace('\t', " ").replace(char::is_control, "\u{fffd}");
         let underline = (self.width as usize).clamp(1, shown.chars().count().max(1));
         let number = self.place.line.to_string();
         let gutter = " ".repeat(number.len());

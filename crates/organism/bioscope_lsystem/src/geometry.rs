@@ -44,6 +44,8 @@ impl Default for MeshOptions {
 const MOST_SIDES: u32 = 64;
 /// Plants of more segments have axes of fewer sides and with pointed tips: nobody sees theirs closely.
 const DETAILED: usize = 200_000;
+/// Plants of more balls have coarser ones.
+const FEW_BALLS: usize = 500;
 
 impl Interpretation {
     /// The plant as one mesh with vertex colors, rigid.
@@ -151,7 +153,8 @@ impl<'a> Builder<'a> {
         }
         drawn.patches.iter().filter(|one| wanted(one.texture)).for_each(|one| builder.patch(one));
         if wanted(0) {
-            drawn.balls.iter().for_each(|ball| builder.ball(ball));
+            let rings = if drawn.balls.len() <= FEW_BALLS { 9 } else { 5 };
+            drawn.balls.iter().for_each(|ball| builder.ball(ball, rings));
             drawn.discs.iter().for_each(|disc| builder.disc(disc));
         }
         builder

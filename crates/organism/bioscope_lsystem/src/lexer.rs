@@ -113,11 +113,13 @@ pub(crate) struct Cursor<'a> {
     end: usize,
     /// Declared names of modules, longest first.
     modules: Rc<[String]>,
+    /// Whether every letter is a module, `@o` two of them.
+    letters: bool,
 }
 
 impl<'a> Cursor<'a> {
     pub fn new(text: &'a str, span: Range<usize>) -> Self {
-        Self { text, position: span.start, end: span.end, modules: Rc::new([]) }
+        Self { text, position: span.start, end: span.end, modules: Rc::new([]), letters: false }
     }
 
     /// One that knows modules of several letters.
@@ -125,9 +127,20 @@ impl<'a> Cursor<'a> {
         Self { modules, ..self }
     }
 
+    /// One to which every letter is a module, if `letters`.
+    pub fn by_letters(self, letters: bool) -> Self {
+        Self { letters, ..self }
+    }
+
     /// The text of these bytes.
     pub fn slice(&self, span: Range<usize>) -> &'a str {
         &self.text[span]
+    }
+
+    /// Where the statement begins that is read, and its text.
+    pub fn statement(&self) -> (usize, &'a str) {
+        let first = self.text[..self.position].rfind('\n').map_or(0, |end| end + 1);
+        (first, &self.text[first..self.end])
     }
 
     /// What has not been read.
@@ -141,6 +154,9 @@ impl<'a> Cursor<'a> {
             return (Word::Symbol, span);
         }
         let (token, span) = self.peek(Word::End);
+        if self.letters && self.slice(span.clone()).starts_with(['@', '~']) {
+            return (Word::Symbol, span.start..span.start + 1);
+        }
         (token.unwrap_or(Word::Unknown), span)
     }
 
@@ -200,6 +216,18 @@ mod tests {
             texts,
             ["F", "-", "-", "F", "-->", "@Gs", "A", "@T", "~l", "?P", "@Tx", "@;", "%"]
         );
+    }
+
+    #[test]
+    fn modules_may_be_single_letters_alone() {
+        let text = "@Gs~l@";
+        let mut cursor = Cursor::new(text, 0..text.len()).by_letters(true);
+        let mut found = Vec::new();
+        while let (Word::Symbol, span) = cursor.peek_word() {
+            cursor.position = span.end;
+            found.push(&text[span]);
+        }
+        assert_eq!(found, ["@", "G", "s", "~", "l", "@"]);
     }
 
     #[test]

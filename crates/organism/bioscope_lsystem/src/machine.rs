@@ -463,6 +463,22 @@ pub(crate) struct Memory {
 pub(crate) struct Oddities {
     pub divisions_by_zero: u64,
     pub indices_out_of_range: u64,
+    /// Address of the program that divided by zero first.
+    divided: Option<usize>,
+}
+
+impl Oddities {
+    /// Adds what happened afterwards.
+    pub fn add(&mut self, later: Self) {
+        self.divisions_by_zero += later.divisions_by_zero;
+        self.indices_out_of_range += later.indices_out_of_range;
+        self.divided = self.divided.or(later.divided);
+    }
+
+    /// Whether this is the program that divided by zero first.
+    pub fn divided_first(&self, program: &Program) -> bool {
+        self.divided == Some(program.0.as_ptr() as usize)
+    }
 }
 
 impl Machine {
@@ -612,7 +628,7 @@ impl Machine {
                         next -= distance as usize;
                     }
                 }
-                other => self.rare(other),
+                other => self.rare(other, code.as_ptr() as usize),
             }
         }
         0.0
@@ -626,7 +642,8 @@ impl Machine {
         }
     }
 
-    fn rare(&mut self, instruction: Instruction) {
+    /// What is computed seldom; `program` is the address of the program that is run.
+    fn rare(&mut self, instruction: Instruction, program: usize) {
         match instruction {
             Instruction::Constant { to, index } => {
                 let value = self.pool.more_constants[index as usize];
@@ -636,7 +653,13 @@ impl Machine {
                 let value = unary(operation, self.get(a), self.pool.rules);
                 self.set(to, value);
             }
-            Instruction::Binary { operation, to, a, b } => self.binary(operation, to, a, b),
+            Instruction::Binary { operation, to, a, b } => {
+                if operation == Binary::Divide && self.get(b) == 0.0 {
+                    self.oddities.divisions_by_zero += 1;
+                    self.oddities.divided.get_or_insert(program);
+                }
+                self.binary(operation, to, a, b);
+            }
             Instruction::Index { to, from, dimension } => self.index(to, from, dimension),
             Instruction::Load { to, array, at } => {
                 let value = self.arrays[array as usize].get(self.get(at) as usize).copied();
@@ -668,9 +691,6 @@ impl Machine {
 
     fn binary(&mut self, operation: Binary, to: Register, a: Register, b: Register) {
         let (a, b) = (self.get(a), self.get(b));
-        if b == 0.0 && operation == Binary::Divide {
-            self.oddities.divisions_by_zero += 1;
-        }
         let value = match binary(operation, a, b, self.pool.rules) {
             Ok(value) => value,
             Err(fault) => {

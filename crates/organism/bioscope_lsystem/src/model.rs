@@ -129,7 +129,7 @@ impl Production {
             && self.successor.program.is_empty()
     }
 
-    fn programs(&self) -> impl Iterator<Item = &Program> {
+    pub fn programs(&self) -> impl Iterator<Item = &Program> {
         [&self.test, &self.successor.program].into_iter().chain(&self.probability)
     }
 }
@@ -316,6 +316,15 @@ impl LSystem {
     /// its number.
     pub fn texts(&self) -> &[String] {
         &self.pool.texts
+    }
+
+    /// All productions, those of decomposition and homomorphism too.
+    pub(crate) fn productions(&self) -> impl Iterator<Item = &Production> {
+        self.systems.iter().flat_map(|system| {
+            let sets =
+                system.tables.iter().chain(&system.decomposition).chain(&system.homomorphism);
+            sets.flat_map(|set| &set.productions)
+        })
     }
 
     /// Whether the file is in the notation of our own rather than in the cpfg dialect.

@@ -7,6 +7,7 @@
 mod block;
 mod expression;
 mod functions;
+mod letters;
 mod lint;
 mod names;
 mod production;
@@ -109,6 +110,8 @@ struct Parser<'s> {
     timed: Option<f64>,
     /// What timed modules show: kind, shown kind and program.
     growth: Vec<(u8, u8, crate::machine::Program)>,
+    /// Whether every letter is a module, `@o` two of them.
+    letters: bool,
 }
 
 impl<'s> Parser<'s> {
@@ -133,6 +136,7 @@ impl<'s> Parser<'s> {
             constants: Vec::new(),
             timed: None,
             growth: Vec::new(),
+            letters: false,
         }
     }
 
@@ -166,7 +170,7 @@ impl<'s> Parser<'s> {
 
     fn statement(&mut self, statement: &Statement) {
         let cursor = Cursor::new(&self.source.expanded, statement.content.clone());
-        let mut cursor = cursor.with_modules(self.modules.clone());
+        let mut cursor = cursor.with_modules(self.modules.clone()).by_letters(self.letters);
         if self.part == Part::Over && !self.begin_system(statement) {
             return;
         }

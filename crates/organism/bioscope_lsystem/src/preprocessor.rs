@@ -9,6 +9,7 @@ use logos::Logos;
 
 use crate::{
     Diagnostic,
+    diagnostic::suggestion,
     source::{Origin, Source, Stretch},
 };
 use conditions::{Conditions, value};
@@ -24,6 +25,11 @@ const ERROR_LIMIT: usize = 50;
 /// How many files may be included, and how deeply.
 const INCLUDE_LIMIT: usize = 100;
 const INCLUDE_DEPTH: usize = 20;
+/// What may follow `#`.
+const DIRECTIVES: [&str; 13] = [
+    "define", "undef", "include", "line", "pragma", "error", "warning", "ifdef", "ifndef", "elif",
+    "else", "endif", "if",
+];
 /// How many bytes the expanded text may have.
 const SIZE_LIMIT: usize = 16 << 20;
 
@@ -224,7 +230,11 @@ impl Preprocessor<'_> {
             "line" => self.line(rest),
             "pragma" | "warning" => {}
             "error" => self.error(name.origin(), joined(rest).trim().to_string()),
-            _ => return false,
+            other => {
+                let Some(meant) = suggestion(other, DIRECTIVES) else { return false };
+                let message = format!("unknown directive '#{other}': did you mean '#{meant}'?");
+                self.error(name.origin(), message);
+            }
         }
         true
     }

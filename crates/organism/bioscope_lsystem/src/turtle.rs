@@ -47,6 +47,7 @@ mod draw;
 mod options;
 mod patch;
 mod sharing;
+mod spelling;
 mod spline;
 mod stances;
 mod state;
@@ -58,6 +59,7 @@ use crate::{Alphabet, ModuleString, interpretation::Interpretation};
 use axes::{Angle, Axes};
 use command::{Change, Command, Disc, command};
 use patch::PatchTable;
+use spelling::Spelling;
 use spline::Spline;
 use state::{MOVEMENTS, State};
 
@@ -110,6 +112,8 @@ pub struct Turtle<'a> {
     angle: Angle,
     /// How much of itself the present module is: what is only just growing is smaller.
     growing: f32,
+    /// Symbols of several letters that are spelled in modules of one letter.
+    spelling: Option<Spelling>,
     out: Interpretation,
 }
 
@@ -148,6 +152,7 @@ impl<'a> Turtle<'a> {
             angles: [(u32::MAX, Angle::HALF_TURN); ANGLES],
             angle: Angle::of_degrees(options.angle, round),
             growing: 1.0,
+            spelling: Spelling::of(alphabet),
             out: Interpretation { shapes: options.shapes.clone(), ..Interpretation::default() },
         }
     }
@@ -159,7 +164,18 @@ impl<'a> Turtle<'a> {
 
     /// Does what the module with this code (in the alphabet) and these parameters says.
     pub fn read(&mut self, code: u8, parameters: &[f32]) -> Result<()> {
-        let command = self.commands.get(code as usize).copied().unwrap_or(Command::Nothing);
+        let mut command = self.commands.get(code as usize).copied().unwrap_or(Command::Nothing);
+        if let Some(spelling) = &mut self.spelling {
+            let (before, spelled) = spelling.read(code, parameters.len() as u8, self.options);
+            if let Some(before) = before {
+                self.follow(before, &[])?;
+            }
+            command = spelled.unwrap_or(command);
+        }
+        self.follow(command, parameters)
+    }
+
+    fn follow(&mut self, command: Command, parameters: &[f32]) -> Result<()> {
         if self.skipped.is_some() && !self.skip(command) {
             return Ok(());
         }
@@ -188,6 +204,10 @@ impl<'a> Turtle<'a> {
 
     /// Ends the walk: what it has left behind.
     pub fn finish(mut self) -> Interpretation {
+        let options = self.options;
+        if let Some(last) = self.spelling.as_mut().and_then(|spelling| spelling.end(options)) {
+            self.obey(last, &[]);
+        }
         self.end_stroke();
         self.out
     }

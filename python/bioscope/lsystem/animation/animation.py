@@ -25,11 +25,11 @@ from bioscope.lsystem.animation.functions import SENSES
 from bioscope.lsystem.animation.machine import Compiler
 from bioscope.lsystem.animation.particles import advance
 from bioscope.lsystem.animation.placement import placements
-from bioscope.lsystem.animation.sounds import Air
+from bioscope.lsystem.animation.sounds import USER, VOCABULARY, Air
 from bioscope.lsystem.animation.vectors import ZERO, Pose, Vector, add, length, times, unit
 from bioscope.lsystem.animation.viewing import VOICE, Camera, Device, Light
 from bioscope.lsystem.animation.walk import TABLE, Walk, touched
-from bioscope.lsystem.definition.grammar import read
+from bioscope.lsystem.definition.grammar import pointing, read
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
@@ -155,7 +155,7 @@ class Animation:
         self._device = Device()
         self._words: list[str] = []
         self._tables(given, sounds or {})
-        self._begin()
+        self._begin(given)
 
     @classmethod
     def read(cls, *files: str | PathLike[str], **options: Any) -> Animation:
@@ -163,6 +163,17 @@ class Animation:
         texts = [Path(one).read_text(encoding="utf-8", errors="replace") for one in files]
         named = zip(texts, files, strict=True)
         return cls(*(Source(text, str(one), Path(one).parent) for text, one in named), **options)
+
+    @classmethod
+    def check(cls, file: str | PathLike[str]) -> list[str]:
+        """Return what is doubtful in a definition file, whatever eyes its actors may have.
+
+        Raises
+        ------
+        FormatError
+            If it is wrong.
+        """
+        return cls.read(file, senses=dict.fromkeys(SENSES.values(), lambda actor: 0.0)).remarks
 
     def _tables(self, given: Sequence[Source], sounds: Mapping[int, float]) -> None:
         """Read the options, and the files that the definitions name."""
@@ -174,6 +185,8 @@ class Animation:
         """By actor the edge of its vision window in pixels, and how many colors it tells apart."""
         self.air = Air(sounds)
         """What is heard."""
+        self.recognizer: tuple[int, str] | None = None
+        """Port and host of the recognizer of speech whose words the host hands on (`say`)."""
         self._channels: list[Channel] = []
         self._imported: dict[int, Trajectory] = {}
         self._commands: dict[int, list[str]] = {}
@@ -199,6 +212,8 @@ class Animation:
             self._most += max(0, number)
         elif name == "command_file":
             self._commands[number] = words[1:]
+        elif name == "AUDIOport_host":
+            self.recognizer = number, words[1]
         elif name == "NBR_actors":
             for actor in range(number):
                 self.actor(actor)
@@ -223,12 +238,12 @@ class Animation:
         elif name == "import_trace":
             self._imported[number] = Trajectory(located(words[1], folder, place), number)
 
-    def _begin(self) -> None:
+    def _begin(self, given: Sequence[Source]) -> None:
         self.crew = Crew(self, self._most or MOST_PARTICLES, self._push)
-        self.layers = [
-            Derivation(one, Compiler(one, self.senses), number)
-            for number, one in enumerate(self.definitions)
-        ]
+        self.layers: list[Derivation] = []
+        for number, (one, source) in enumerate(zip(self.definitions, given, strict=True)):
+            with pointing(source.text, source.file):
+                self.layers.append(Derivation(one, Compiler(one, self.senses), number))
         self._placements = [
             placements(one, self.seed, number, self.remark)
             for number, one in enumerate(self.definitions)
@@ -304,6 +319,8 @@ class Animation:
         for layer, places in zip(self.layers, self._placements, strict=True):
             for index, at in enumerate(places):
                 Walk(self, layer, index, at).run()
+        for word in self._words:
+            self.air.begin(VOCABULARY[word], USER, self.camera.eye)
         self._device, self._words = Device(), []
         if self.offline:
             name = f"{self._scene}.{self.frame.number:04d}.ray"
@@ -342,8 +359,15 @@ class Animation:
         self._device = device
 
     def say(self, words: str) -> None:
-        """Speak to the world; commands move the camera, if a symbol `l` lets voices do so."""
-        self._words.append(words)
+        """Speak to the world, as a recognizer of speech does.
+
+        A word of the vocabulary is a sound where the camera is, heard from the next frame on; but
+        commands move the camera instead, if a symbol `l` lets voices do so.
+        """
+        if words in VOCABULARY:
+            self._words.append(words)
+        else:
+            self.remark(f"nobody knows the word '{words}'")
 
     def remark(self, text: str) -> None:
         """Keep a remark, once."""
@@ -410,6 +434,7 @@ class Animation:
             camera.follow(self._device)
         elif mode == 11:
             camera.hear([word for word in self._words if word in VOICE])
+            self._words = [word for word in self._words if word not in VOICE]
         if mode == 10:
             camera.target = self.look_at
         if mode in (8, 10):

@@ -12,6 +12,18 @@ if TYPE_CHECKING:
 
     from bioscope.lsystem.animation.vectors import Vector
 
+_NUMBERS = ["one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten"]
+_SPOKEN = [
+    *("move right", "move left", "move up", "move down", "move", "go back"),
+    *("turn up", "turn down", "turn left", "turn right", "faster", "slow down"),
+    *("turn faster", "turn less", "block", "free it", "stop", "blue", "green"),
+    *_NUMBERS,
+    "exit",
+]
+VOCABULARY = {word: number for number, word in enumerate(_SPOKEN, 29)}
+"""Numbers of the sounds that spoken words make (thesis, table D.2)."""
+USER = 1000
+"""The source of what the user says."""
 LIBRARY = {
     0: "ball_racket",
     1: "ball_ground",
@@ -48,6 +60,7 @@ LIBRARY = {
             10,
         )
     ),
+    **{number: word.replace(" ", "_") for word, number in VOCABULARY.items()},
 }
 """Sounds of the thesis (appendix D) by number."""
 ITEMS = {

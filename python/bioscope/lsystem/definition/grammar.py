@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import contextlib
+import difflib
 import math
 import re
 from dataclasses import dataclass, field
@@ -11,7 +13,7 @@ from typing import TYPE_CHECKING
 from bioscope.errors import FormatError
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Iterator
 
 SECTIONS = (
     "Camera_AnimationParameters",
@@ -72,6 +74,8 @@ CURVED = set("EFGHIJKLMNOPQRS")
 END_OF_SPLINE = 1e30
 SLOTS = 7
 LONGEST = 1 << 20
+SHOWN = 60
+"""Characters of a long line that an error shows on either side of its place."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -180,10 +184,36 @@ def read(text: str, file: str) -> Definition:
     """
     if len(text) > LONGEST:
         raise FormatError(f"{file}: a definition file has at most {LONGEST} characters")
-    reader = _Reader(text, file)
-    definition = Definition(file)
-    reader.sections(definition)
+    with pointing(text, file):
+        reader = _Reader(text, file)
+        definition = Definition(file)
+        reader.sections(definition)
     return definition
+
+
+@contextlib.contextmanager
+def pointing(text: str, file: str) -> Iterator[None]:
+    """Show the line of the text that an error is about, if its message begins with a place."""
+    try:
+        yield
+    except FormatError as error:
+        found = re.match(rf"{re.escape(file)}:(\d+):(\d+): [^\n]*$", str(error))
+        if found is None:
+            raise
+        number, column = int(found[1]), int(found[2]) - 1
+        line = text.split("\n")[number - 1]
+        first = max(0, column - SHOWN)
+        shown = re.sub(r"[\x00-\x1f\x7f]", " ", line[first : column + SHOWN]).rstrip()
+        gutter = " " * len(found[1])
+        mark = f" {number} | {shown}\n {gutter} | {' ' * (column - first)}^"
+        raise FormatError(f"{error}\n{mark}") from None
+
+
+def meant(name: str, known: Iterable[str]) -> str:
+    """Return what to say about an unknown name: the one that it is like, or all."""
+    known = list(known)
+    like = difflib.get_close_matches(name, known, 1)
+    return f"did you mean '{like[0]}'?" if like else f"known are {', '.join(known)}"
 
 
 def _blanks(comment: re.Match[str]) -> str:
@@ -249,6 +279,8 @@ class _Reader:
             if name == "Axiom":
                 self.keyword(name)
                 while not self.peek().startswith("Productions"):
+                    if not self.peek():
+                        raise self.error("expected 'Productions' after the axiom")
                     definition.axiom.append(self.template())
             elif name == "Productions":
                 self.keyword(name)
@@ -260,7 +292,7 @@ class _Reader:
 
     def keyword(self, name: str) -> None:
         if self.peek() != name:
-            raise self.error(f"expected '{name}', found '{self.peek()}'")
+            raise self.error(f"expected '{name}', found '{self.peek() or 'the end of the file'}'")
         self.at += len(name)
 
     def head(self, section: str, definition: Definition) -> None:
@@ -284,7 +316,7 @@ class _Reader:
     def numbers(self, known: dict[str, int], into: dict[str, list[float]]) -> None:
         name = self.peek()
         if name not in known:
-            raise self.error(f"unknown parameter '{name}'; known are {', '.join(known)}")
+            raise self.error(f"unknown parameter '{name}'; {meant(name, known)}")
         self.at += len(name)
         into[name] = [self.number(f"a number of '{name}'") for _ in range(known[name])]
 
@@ -294,7 +326,7 @@ class _Reader:
             self.spline(definition)
             return
         if name not in OPTIONS:
-            raise self.error(f"unknown option '{name}'; known are {', '.join(OPTIONS)}")
+            raise self.error(f"unknown option '{name}'; {meant(name, OPTIONS)}")
         self.at += len(name)
         words: list[str] = []
         for kind in OPTIONS[name].removesuffix("*"):
@@ -362,7 +394,16 @@ class _Reader:
         self.skip()
         place = self.place()
         symbol = self.symbol()
-        return Template(symbol, tuple(self.expression() for _ in range(SLOTS)), place)
+        slots: list[Expression] = []
+        for _ in range(SLOTS):
+            self.skip()
+            if self.text[self.at : self.at + 1] != "(":
+                raise self.error(
+                    f"expected an expression in parentheses: '{symbol}' has {len(slots)} of 7, "
+                    "its age, x, y, z, and three growth values"
+                )
+            slots.append(self.expression())
+        return Template(symbol, tuple(slots), place)
 
     def rule(self) -> Rule:
         self.skip()
@@ -371,9 +412,13 @@ class _Reader:
         left, right = self.context(), self.context()
         alternatives = []
         while self.peek() != "End":
+            if self.peek() in ("", "EndProductions"):
+                raise self.error(f"expected 'End' after the production of '{symbol}'")
             chance = self.number("a probability")
             made = []
             while not self.peek().startswith("EndProb"):
+                if self.peek() in ("", "End", "EndProductions"):
+                    raise self.error(f"expected 'EndProb' after a successor of '{symbol}'")
                 made.append(self.template())
             self.keyword("EndProb")
             alternatives.append((chance, made))

@@ -11,7 +11,14 @@ from itertools import product
 
 from bioscope.errors import FormatError
 from bioscope.lsystem.definition.drawing import DRAWINGS
-from bioscope.lsystem.definition.grammar import Definition, Expression, Rule, Template, read
+from bioscope.lsystem.definition.grammar import (
+    Definition,
+    Expression,
+    Rule,
+    Template,
+    pointing,
+    read,
+)
 from bioscope.lsystem.definition.postfix import Surroundings, infix
 
 NAMES = {
@@ -40,7 +47,9 @@ def translated(text: str, file: str) -> str:
         With file, line and column, if the file is wrong or has rules that depend on actors,
         particles, senses, memories or cuts.
     """
-    return _Translation(read(text, file)).model()
+    definition = read(text, file)
+    with pointing(text, file):
+        return _Translation(definition).model()
 
 
 class _Translation:

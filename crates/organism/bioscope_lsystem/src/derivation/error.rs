@@ -14,9 +14,9 @@ pub struct Limits {
 }
 
 impl Default for Limits {
-    /// 200 million modules, 2 GiB, 20 thousand million operations.
+    /// 500 million modules, 2 GiB, 20 thousand million operations.
     fn default() -> Self {
-        Self { modules: 200_000_000, bytes: 2 << 30, operations: 20_000_000_000 }
+        Self { modules: 500_000_000, bytes: 2 << 30, operations: 20_000_000_000 }
     }
 }
 

@@ -6,7 +6,10 @@ use super::{
     Choice, Passed,
     pass::{Made, Pass, Task, exceeded},
 };
-use crate::{context::Place, machine::Machine};
+use crate::{
+    context::Place,
+    machine::{Machine, Oddities},
+};
 
 /// How many modules one thread treats at a time.
 const CHUNK: usize = 1 << 15;
@@ -91,7 +94,7 @@ fn grown(task: &Task) -> usize {
 /// While some chunks are treated, those before them are put together.
 fn on_threads(
     task: Task,
-    machine: &Machine,
+    machine: &mut Machine,
     mut looked: u64,
     space: &mut Space,
 ) -> Passed<(Made, u64)> {
@@ -105,7 +108,9 @@ fn on_threads(
             || rewrite_chunks(task, machine, starts, looked, &mut coming),
             || put_together(&mut out, &ready),
         );
-        looked += used?;
+        let (used, oddities) = used?;
+        looked += used;
+        machine.oddities.add(oddities);
         std::mem::swap(&mut coming, &mut ready);
         bound(&task, &out, looked)?;
     }
@@ -115,16 +120,16 @@ fn on_threads(
     Ok((out, looked))
 }
 
-/// Treats the chunks that begin at `starts`; how many operations that took.
+/// Treats the chunks that begin at `starts`; how many operations that took, and what was odd.
 fn rewrite_chunks(
     task: Task,
     machine: &Machine,
     starts: &[Place],
     looked: u64,
     parts: &mut [Made],
-) -> Passed<u64> {
+) -> Passed<(u64, Oddities)> {
     let length = task.string.kinds.len();
-    let used: Vec<u64> = starts
+    let used: Vec<(u64, Oddities)> = starts
         .par_iter()
         .zip(parts)
         .map_init(
@@ -135,11 +140,13 @@ fn rewrite_chunks(
                 pass.run((start.module + CHUNK).min(length))?;
                 let used = pass.matcher.looked - looked;
                 *part = pass.out;
-                Ok(used)
+                Ok((used, std::mem::take(&mut machine.oddities)))
             },
         )
         .collect::<Passed<_>>()?;
-    Ok(used.iter().sum())
+    let mut oddities = Oddities::default();
+    used.iter().for_each(|&(_, later)| oddities.add(later));
+    Ok((used.iter().map(|&(used, _)| used).sum(), oddities))
 }
 
 /// Where each chunk begins.

@@ -127,12 +127,12 @@ impl Builder<'_> {
         }
     }
 
-    pub(super) fn ball(&mut self, ball: &Ball) {
-        const RINGS: u32 = 5;
+    /// A ball of so many rings from pole to pole, and at least as many sides.
+    pub(super) fn ball(&mut self, ball: &Ball, rings: u32) {
         let left = ball.axis.any_orthonormal_vector();
         let node = |ring: u32| {
             // From just above the lower pole to just below the upper one, which the tube rounds off.
-            let angle = math::PI * (ring as f32 + 0.05) / (RINGS as f32 - 0.9);
+            let angle = math::PI * (ring as f32 + 0.05) / (rings as f32 - 0.9);
             let (height, radius) =
                 (-math::cos(angle) * ball.radius, math::sin(angle) * ball.radius);
             Node {
@@ -146,8 +146,12 @@ impl Builder<'_> {
         };
         if ball.radius > 0.0 {
             let binding = self.binding(ball.anchor);
-            let line = Line::new((0..RINGS).map(node).collect(), binding);
-            self.tube(&line, self.options.sides.clamp(5, 12), true);
+            let line = Line::new((0..rings).map(node).collect(), binding);
+            self.tube(
+                &line,
+                self.options.sides.clamp(2 * rings - 5, (3 * rings - 3).min(16)),
+                true,
+            );
         }
     }
 }

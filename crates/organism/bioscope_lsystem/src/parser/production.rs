@@ -54,7 +54,7 @@ impl Parser<'_> {
         };
         match cursor.peek_word() {
             (Word::Arrow | Word::ObjectArrow, span) => cursor.position = span.end,
-            (_, span) => return Err(SyntaxError::unexpected(cursor, span, "'-->'")),
+            (_, span) => return Err(without_arrow(cursor, span)),
         }
         let kinds = self.successor(cursor, &mut scope, &mut rest)?;
         let mut probability = None;
@@ -250,9 +250,11 @@ impl Parser<'_> {
             cursor.position = start.end;
             return Ok(kinds);
         }
+        let mut word = start.start..start.start;
         while let (Word::Symbol, span) = cursor.peek_word() {
             cursor.position = span.end;
             let symbol = cursor.slice(span.clone()).to_string();
+            self.spelled(cursor, &mut word, span.clone());
             let mut arity = 0;
             let is_timed =
                 self.timed.is_some() && self.declared.iter().any(|(known, _)| *known == symbol);
@@ -263,10 +265,14 @@ impl Parser<'_> {
                     let from = compiler.register(Operand::Constant(0.0))?;
                     compiler.emit(Instruction::Emit { from })?;
                 }
-                if compiler.cursor.peek_word().0 == Word::Open {
+                let is_told = compiler.cursor.peek_word().0 == Word::Open;
+                if is_told {
                     arity = arguments(&mut compiler)?;
                 }
                 *code = compiler.code;
+                if is_told {
+                    self.check_arity(&symbol, arity, span.clone());
+                }
                 arity += usize::from(is_timed);
             } else {
                 arity += self.implied(&symbol, cursor, scope, code)?;
@@ -315,6 +321,19 @@ impl Parser<'_> {
         let code = self.alphabet.intern(symbol, arity as u8);
         code.ok_or_else(|| SyntaxError::new(span, "more than 256 different kinds of module"))
     }
+}
+
+/// A statement without an arrow; one that is nearly an arrow is pointed at.
+fn without_arrow(cursor: &Cursor, span: Range<usize>) -> SyntaxError {
+    let mut error = SyntaxError::unexpected(cursor, span.clone(), "'-->'");
+    let (first, text) = cursor.statement();
+    let nearly = ["->", "=>", "→"].into_iter().find_map(|arrow| Some((text.find(arrow)?, arrow)));
+    if let Some((at, arrow)) = nearly.filter(|_| !text.contains("-->")) {
+        let place = first + at..first + at + arrow.len();
+        error = SyntaxError::new(place, format!("expected '-->', found '{arrow}'"));
+        error.help = Some("a production is written 'predecessor --> successor'".into());
+    }
+    error
 }
 
 /// `(expression, …)`; how many.

@@ -57,10 +57,22 @@ impl LSystem {
         let is_own = Path::new(file_name).extension().is_some_and(|ending| ending == "lsys");
         let rules = if is_own { Rules::Own } else { Rules::Reference };
         let (source, constants, reports) = preprocess(source.to_string(), file_name, include);
-        let mut parser = Parser::new(&source, rules, reports);
-        parser.constants(&constants);
-        for statement in statements(&source.expanded) {
-            parser.statement(&statement);
+        let read = |letters: bool| {
+            let mut parser = Parser::new(&source, rules, reports.clone());
+            parser.letters = letters;
+            parser.constants(&constants);
+            for statement in statements(&source.expanded) {
+                parser.statement(&statement);
+            }
+            parser
+        };
+        let parser = read(false);
+        if parser.splits_symbols() {
+            let by_letters = read(true);
+            // What is wrong either way is told of the usual reading.
+            if by_letters.errors.is_empty() {
+                return by_letters.finish();
+            }
         }
         parser.finish()
     }
@@ -72,7 +84,13 @@ fn included(folder: &Path, name: &str) -> Result<String, String> {
         return Err(format!("'{name}' is outside the folder of this file"));
     }
     let path = folder.join(name);
-    let describe = |error: std::io::Error| format!("cannot include '{name}': {error}");
+    let describe = |error: std::io::Error| match error.kind() {
+        std::io::ErrorKind::NotFound => {
+            let place = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+            format!("cannot include '{name}': there is no such file in '{}'", place.display())
+        }
+        _ => format!("cannot include '{name}': {error}"),
+    };
     if std::fs::metadata(&path).map_err(describe)?.len() > INCLUDE_LIMIT {
         return Err(format!("cannot include '{name}': larger than {} MiB", INCLUDE_LIMIT >> 20));
     }

@@ -6,7 +6,7 @@ use bioscope_core::{Mat3, Quat, Result};
 use bioscope_geometry::Transform;
 use glam::DVec3;
 
-use super::{Axes, Command, Disc, Frame, Turtle, TurtleOptions};
+use super::{Axes, Command, Disc, Frame, Spelling, Turtle, TurtleOptions};
 use crate::{Alphabet, ModuleString, interpretation::Interpretation};
 
 /// Branches of fewer modules are not worth sharing.
@@ -63,6 +63,13 @@ struct Branches<'a> {
 impl Turtle<'_> {
     /// What the string looks like, equal branches drawn once.
     pub fn share(string: &ModuleString, options: &TurtleOptions) -> Result<SharedPlant> {
+        if Spelling::of(string.alphabet()).is_some() {
+            // Which letters belong together is known only along the string.
+            return Ok(SharedPlant {
+                rest: Turtle::interpret(string, options)?,
+                parts: Vec::new(),
+            });
+        }
         let branches = Branches::new(string, options);
         let mut counts: BTreeMap<Key, u32> = BTreeMap::new();
         let mut walk = Turtle::walking(string.alphabet(), options);
