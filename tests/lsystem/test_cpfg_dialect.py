@@ -1,5 +1,8 @@
 """Models of the cpfg dialect give the strings of the reference program."""
 
+import subprocess
+import sys
+
 import pytest
 
 import bioscope as bio
@@ -161,3 +164,20 @@ def test_what_is_drawn_does_not_depend_on_how_symbols_are_read(drawn: str):
     assert first.discs.center.tolist() == second.discs.center.tolist()
     assert first.surfaces == second.surfaces
     assert first.labels == second.labels
+
+
+def test_strings_of_hundreds_of_millions_of_modules(tmp_path):
+    script = (
+        "import resource, bioscope as bio\n"
+        "system = bio.LSystem('axiom: F\\nF --> FF-[-F+F+F]+[+F-F-F]\\n', 'bush.l')\n"
+        "first = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss\n"
+        "count = len(system.derive(9))\n"
+        "print(count, resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - first)\n"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", script], capture_output=True, text=True, check=True
+    )
+    count, kibibytes = map(int, done.stdout.split())
+    assert count == 364_305_260
+    # One byte per module, and less than half as much again.
+    assert kibibytes * 1024 < 1.5 * count
