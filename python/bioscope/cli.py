@@ -243,6 +243,35 @@ def films(output: Path, size: str, renderer: str, names: tuple[str, ...]) -> Non
         film_world(made, path, options, say=say)
 
 
+@command("stills", "bioscope stills -o stills --size 640x360")
+@path_option("-o", "--output", metavar="DIR", required=True, help="Folder for the pictures.")
+@click.option("--size", metavar="WxH", default="1280x720", help="Pixels.")
+@click.option("--renderer", default="preview", help="preview or path.")
+@click.argument("names", nargs=-1)
+def stills(output: Path, size: str, renderer: str, names: tuple[str, ...]) -> None:
+    """Take the color plates of the fish worlds: a moment of a film each, from its seed.
+
+    NAMES are those to take; all if none. What is there already is not taken again.
+    """
+    from bioscope.film import parse_size, take_still
+
+    plates = worlds.plates()
+    for name in names:
+        if name not in plates:
+            raise UnknownNameError(f"unknown still '{name}'; known: {', '.join(plates)}")
+    output.mkdir(parents=True, exist_ok=True)
+    for name in names or plates:
+        path = output / f"{name}.png"
+        if path.exists():
+            say(f"{path} is there")
+            continue
+        plate = plates[name]
+        made = opened(plate.world, plate.seed)
+        made.run(plate.time)
+        take_still(made, path, plate.camera, size=parse_size(size), renderer=renderer)
+        say(f"{path}")
+
+
 @command("export", "bioscope export reef -o reef.usdc --seconds 4")
 @world_name
 @path_option("-o", "--output", required=True, metavar="FILE.usdc|.usda|.glb", help="What to write.")

@@ -334,7 +334,8 @@ def test_a_pair_goes_through_all_stages_to_spawning():
     # The third touch ends it, so that he backs off twice.
     assert touches == 2
     assert hovers > 10
-    assert max(male.mind.libido, female.mind.libido) < 0.1
+    # His has grown since he has spawned; neither cares for it.
+    assert max(male.mind.libido, female.mind.libido) < 0.3
 
 
 ACTS = ["courting", "circling", "ascending", "nuzzling", "spawned"]

@@ -29,7 +29,7 @@ def elastic_rest(tank: bio.fish.Tank) -> float:
     return float(np.abs(lengths / tank.units[:, 2] - 1).max())
 
 
-@pytest.mark.capability("TF-010", "TF-013", "TF-014", "TF-021")
+@pytest.mark.capability("TF-010", "TF-013", "TF-014", "TF-021", "AA-020")
 def test_the_published_fish_is_made_as_published():
     tank = bio.fish.Tank("anthias", preset="published", length=0.5)
     units = tank.units
@@ -51,6 +51,43 @@ def test_the_published_fish_is_made_as_published():
     damping = units[:, 4] / tank.mass * tank.time_unit * 107.03
     assert damping == pytest.approx(0.1, rel=1e-3)
     assert np.ptp(tank.nodes[:, 2]) == pytest.approx(0.5)
+
+
+@pytest.mark.capability("AA-020")
+@pytest.mark.parametrize("preset", ["published", "calibrated"])
+def test_the_shape_at_rest_is_an_equilibrium(preset):
+    tank = bio.fish.Tank("anthias", preset=preset)
+    tank.step(np.zeros(12), steps=1000)
+    before = tank.nodes
+    tank.step(np.zeros(12))
+    assert np.abs(tank.nodes - before).max() / tank.dt < 1e-6, "metres per second"
+
+
+@pytest.mark.capability("AA-022")
+def test_a_push_is_braked_by_the_water_alone():
+    tank = bio.fish.Tank("anthias")
+    tank.kick((0, 0, tank.cruise))
+    speeds = []
+    for _ in range(200):
+        tank.step(np.zeros(12), steps=5)
+        speeds.append(np.linalg.norm(tank.velocity))
+    assert (np.diff(speeds) < 0).all()
+    assert speeds[-1] < 0.5 * speeds[0]
+
+
+@pytest.mark.capability("AA-023")
+def test_muscles_are_as_long_as_they_are_told():
+    def lengths(contraction: float) -> np.ndarray:
+        tank = bio.fish.Tank("anthias")
+        tank.step(np.full(12, contraction), steps=1000)
+        ends = tank.units[:12, :2].astype(int)
+        between = np.diff(tank.nodes[ends], axis=1)[:, 0]
+        return np.linalg.norm(between, axis=1) / tank.units[:12, 2]
+
+    assert lengths(0.0) == pytest.approx(1.0, abs=1e-6)
+    falling = [lengths(share).mean() for share in (0.0, 0.25, 0.5, 0.75, 1.0)]
+    assert np.diff(falling) == pytest.approx(np.full(4, (falling[-1] - 1) / 4), rel=0.05)
+    assert falling[-1] == pytest.approx(0.76, abs=0.02), "shortened by 24 percent at most"
 
 
 @pytest.mark.capability("TF-011", "TF-026")
@@ -97,7 +134,7 @@ def test_the_greatest_girth_is_just_before_the_middle():
         assert 0.35 <= place <= 0.5
 
 
-@pytest.mark.capability("TF-017")
+@pytest.mark.capability("TF-017", "AA-022")
 def test_swimming_has_the_measures_of_a_carangiform_swimmer():
     tank = bio.fish.Tank("anthias")
     length, speed = tank.length, tank.cruise
@@ -140,7 +177,7 @@ def test_without_water_the_tail_beats_in_place():
     assert wide > narrow
 
 
-@pytest.mark.capability("TF-019", "TF-025")
+@pytest.mark.capability("TF-019", "TF-025", "TF-170", "AA-027")
 def test_a_passive_fish_floats_and_is_carried_by_the_current():
     tank = bio.fish.Tank("anthias")
     tank.run(10)
@@ -245,7 +282,7 @@ def test_the_implicit_step_holds_where_the_others_break():
     assert not holds("explicit", 0.03)
 
 
-@pytest.mark.capability("TF-020")
+@pytest.mark.capability("TF-020", "AA-021")
 def test_random_activation_is_survived_for_a_hundred_thousand_steps():
     tank = bio.fish.Tank("anthias")
     rng = np.random.default_rng(1)

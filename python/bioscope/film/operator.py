@@ -9,6 +9,7 @@ import numpy as np
 
 from bioscope import _engine
 from bioscope.errors import UnknownNameError
+from bioscope.film.steady import Steady
 
 if TYPE_CHECKING:
     from bioscope._engine import Camera
@@ -31,17 +32,28 @@ class Operator:
         else:
             self._shots = world.shots or [(name, _SECONDS_PER_SHOT) for name in names]
         self._previous: Camera | None = None
+        self._steady: Steady | None = None
         self._shot = -1
 
     def camera(self, seconds: float, dt: float) -> tuple[Camera, bool]:
         """Return the camera at `seconds` of the film, `dt` after the last, and whether it cuts."""
         shot, name = self._at(seconds)
         cut = shot != self._shot
-        previous = None if cut else self._previous
-        found = self._world.cameras.now(name, previous, dt) if name else None
+        if cut or self._steady is None:
+            found = (
+                self._world.cameras.now(name, None if cut else self._previous, dt) if name else None
+            )
+            self._steady = None if found is None else self._taken_in_hand(name, found)
+        else:
+            found = self._steady.camera(self._world.scene, dt)
         camera = found or self._previous or overview(self._world)
         self._shot, self._previous = shot, camera
         return camera, cut
+
+    def _taken_in_hand(self, name: str, camera: Camera) -> Steady | None:
+        """Return the hands that hold a camera which goes with an animal from here on."""
+        rig = next(one for one in self._world.cameras.describe() if one["name"] == name)
+        return Steady.begin(self._world.scene, rig, camera)
 
     def _at(self, seconds: float) -> tuple[int, str]:
         """Return the number of the shot and the name of its camera; empty without cameras."""
@@ -63,13 +75,16 @@ class Operator:
         pose = None
         if camera is not None:
             pose = (camera.position, camera.rotation, camera.field_of_view)
-        return {"shot": self._shot, "pose": pose}
+        steady = None if self._steady is None else self._steady.state()
+        return {"shot": self._shot, "pose": pose, "steady": steady}
 
     def restore(self, state: dict[str, Any]) -> None:
         """Go on from where `state` was taken."""
         self._shot = state["shot"]
         pose = state["pose"]
         self._previous = None if pose is None else _engine.Camera(*pose)
+        steady = state["steady"]
+        self._steady = None if steady is None else Steady.restored(steady)
 
 
 def overview(world: World) -> Camera:

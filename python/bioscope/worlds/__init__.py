@@ -6,6 +6,7 @@ import importlib
 import importlib.util
 import sys
 import traceback
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -37,6 +38,30 @@ def films() -> dict[str, int]:
         if seed is not None:
             seeds[name] = int(seed)
     return seeds
+
+
+@dataclass(frozen=True)
+class Plate:
+    """A moment of a ready-made world that is worth a picture."""
+
+    world: str
+    seed: int
+    time: float
+    """Seconds from its beginning."""
+    camera: str
+
+
+def plates() -> dict[str, Plate]:
+    """Return the color plates of the ready-made worlds by name.
+
+    Worlds name theirs in their module as `PLATES`: seed, time and camera by the plate's name.
+    """
+    found = {}
+    for name in names():
+        module = importlib.import_module(f"bioscope.worlds.{name}.world")
+        for plate, (seed, time, camera) in getattr(module, "PLATES", {}).items():
+            found[plate] = Plate(name, seed, time, camera)
+    return found
 
 
 def _summary(path: Path) -> str:

@@ -30,9 +30,7 @@ def world(seed: int) -> bio.World:
         hungry = bio.minds.Intentions(
             "pacifist", food=food, appetite=25.0, home_range=2.0, libido_growth=0.0
         )
-        bay.add(
-            bio.RoamingFish(species, count, center=_HOME, radius=1.4, mind=hungry, body="swimmer")
-        )
+        bay.add(bio.RoamingFish(species, count, center=_HOME, radius=1.4, mind=hungry))
     bay.add(bio.Plankton(900, low=(-3.0, -5.4, -2.4), high=(3.0, -2.4, 2.4)))
     bay.add(
         bio.FishingLine(
@@ -45,9 +43,9 @@ def world(seed: int) -> bio.World:
 
 def _place_cameras(bay: bio.World) -> None:
     cameras = bay.cameras
-    cameras.fixed("bay", position=(0.9, -4.5, 3.4), target=(0.1, -4.2, 0.0), field_of_view=52)
+    cameras.fixed("bay", position=(0.7, -4.5, 2.3), target=(0.1, -4.25, 0.0), field_of_view=48)
     cameras.follow("angelfish", species="emperor_angelfish", offset=(2.2, 0.4, 2.2))
     cameras.follow("tang", species="yellow_tang", offset=(2.6, 0.5, 2.6))
-    cameras.fixed("hook", position=(0.75, -4.2, 1.5), target=(0.2, -3.85, 0.4), field_of_view=46)
-    cameras.fixed("haul", position=(0.8, -4.1, 1.7), target=(0.2, -2.7, 0.4), field_of_view=58)
+    cameras.fixed("hook", position=(0.65, -4.25, 1.25), target=(0.2, -3.95, 0.4), field_of_view=42)
+    cameras.fixed("haul", position=(0.75, -4.2, 1.4), target=(0.2, -2.9, 0.4), field_of_view=58)
     bay.shots = [("bay", 5.0), ("angelfish", 4.0), ("hook", 7.2), ("haul", 5.8), ("bay", 4.0)]

@@ -56,11 +56,7 @@ def _settle_pair(bay: bio.World) -> None:
         spawning_depth=3.9,
     )
     at = (0.55, -4.55, 1.75)
-    bay.add(
-        bio.RoamingFish(
-            "clownfish", 2, center=at, radius=0.25, mind=fond, females=0.5, body="swimmer"
-        )
-    )
+    bay.add(bio.RoamingFish("clownfish", 2, center=at, radius=0.25, mind=fond, females=0.5))
 
 
 def _settle_background(bay: bio.World) -> None:
@@ -69,7 +65,7 @@ def _settle_background(bay: bio.World) -> None:
         "pacifist", food=["plankton"], appetite=25.0, libido_growth=0.0, home_range=1.2
     )
     at = (-0.6, -4.4, 0.2)
-    bay.add(bio.RoamingFish("anthias", 7, center=at, radius=0.7, mind=feeder, body="swimmer"))
+    bay.add(bio.RoamingFish("anthias", 7, center=at, radius=0.7, mind=feeder))
     member = bio.minds.Intentions(
         "prey",
         enemies=[_SHARK],
@@ -80,11 +76,15 @@ def _settle_background(bay: bio.World) -> None:
         home_range=30.0,
     )
     at, home = (-1.6, -3.7, -2.7), (0.0, -3.7, -2.6)
-    bay.add(bio.RoamingFish(_PREY, 14, center=at, radius=0.7, mind=member, body="swimmer"))
+    bay.add(bio.RoamingFish(_PREY, 14, center=at, radius=0.7, mind=member))
     way = [(2.6, -3.6, -2.4), (-2.2, -3.7, -3.0)]
     guide = partial(Guide, way, home, 0.9)
     at = (-0.8, -3.7, -2.7)
-    bay.add(bio.RoamingFish(_LEADER, 1, center=at, radius=0.1, home=home, mind=guide))
+    bay.add(
+        bio.RoamingFish(
+            _LEADER, 1, center=at, radius=0.1, home=home, mind=guide, body="muscle_swimmer"
+        )
+    )
     stalker = bio.minds.Intentions(
         "predator",
         food=[_PREY],
@@ -95,6 +95,4 @@ def _settle_background(bay: bio.World) -> None:
         home_range=3.5,
     )
     at = (-4.6, -3.4, -3.6)
-    bay.add(
-        bio.RoamingFish(_SHARK, 1, center=at, radius=0.2, home=home, mind=stalker, body="swimmer")
-    )
+    bay.add(bio.RoamingFish(_SHARK, 1, center=at, radius=0.2, home=home, mind=stalker))

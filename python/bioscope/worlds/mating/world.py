@@ -39,7 +39,7 @@ def world(seed: int) -> bio.World:
     )
     for species, females, count, center in _CAST:
         pair = bio.RoamingFish(
-            species, count, center=center, radius=0.5, mind=mind, females=females, body="swimmer"
+            species, count, center=center, radius=0.5, mind=mind, females=females
         )
         bay.add(pair)
     bay.add(bio.Plankton(900, low=(-4.0, -5.5, -3.0), high=(4.0, -2.0, 4.0)))
@@ -49,21 +49,20 @@ def world(seed: int) -> bio.World:
 
 def _place_cameras(bay: bio.World) -> None:
     cameras = bay.cameras
-    cameras.follow("suitor", species="moorish_idol", index=0, offset=(2.6, 0.4, 2.2))
-    cameras.follow("bride", species="moorish_idol", index=2, offset=(3.0, 0.4, 2.0))
-    cameras.follow("butterflyfish", species="butterflyfish", offset=(3.2, 0.5, 2.6))
-    cameras.fixed("pair", position=(1.9, -4.35, 2.75), target=(1.72, -4.2, 1.1), field_of_view=40)
-    cameras.fixed("bay", position=(0.9, -4.4, 3.4), target=(0.8, -4.1, 0.4), field_of_view=50)
-    cameras.fixed(
-        "spawning", position=(2.4, -3.65, 4.1), target=(2.45, -3.3, 1.9), field_of_view=44
-    )
+    idol, angelfish, small = "moorish_idol", "emperor_angelfish", "butterflyfish"
+    cameras.follow("suitor", species=idol, index=1, offset=(3.4, 0.5, 1.6), field_of_view=44)
+    cameras.follow("bride", species=idol, index=2, offset=(3.4, 0.3, 1.2), field_of_view=42)
+    cameras.follow("pair", species=angelfish, index=0, offset=(2.6, 0.3, 0.8), field_of_view=42)
+    cameras.follow("ascent", species=angelfish, index=1, offset=(2.8, -0.4, 0.6), field_of_view=44)
+    cameras.follow("spawning", species=idol, index=2, offset=(2.8, -0.3, 0.8), field_of_view=42)
+    cameras.follow("other", species=small, offset=(3.6, 0.4, 1.4), field_of_view=42)
     bay.shots = [
-        ("suitor", 4.5),
-        ("pair", 8.0),
-        ("bay", 4.0),
-        ("pair", 9.0),
-        ("spawning", 8.5),
-        ("bride", 5.0),
-        ("spawning", 5.0),
-        ("butterflyfish", 5.0),
+        ("suitor", 6.0),
+        ("pair", 6.0),
+        ("bride", 8.0),
+        ("pair", 7.0),
+        ("bride", 6.0),
+        ("other", 5.0),
+        ("ascent", 9.0),
+        ("spawning", 9.0),
     ]

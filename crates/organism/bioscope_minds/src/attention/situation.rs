@@ -36,6 +36,8 @@ pub struct Situation<'a> {
     pub strays: (u32, Vec3),
     /// Whom it follows, if it sees one.
     pub leader: Option<&'a Sighting>,
+    /// How the water moves over ground, own frame, metres per second; at rest where no flow is felt.
+    pub water: Vec3,
     /// What each of those in view is to it, in their order.
     relations: Vec<Relation>,
 }
@@ -45,6 +47,8 @@ impl<'a> Situation<'a> {
     pub fn new(percepts: &'a Percepts, nature: &Nature, temper: &Temper) -> Self {
         let length = percepts.body_length.max(1e-3);
         let relations = percepts.seen.iter().map(|one| nature.relation(&one.species)).collect();
+        let felt = percepts.flow != Vec3::ZERO;
+        let water = if felt { percepts.velocity + percepts.flow } else { Vec3::ZERO };
         let mut situation = Self {
             percepts,
             length,
@@ -54,6 +58,7 @@ impl<'a> Situation<'a> {
             school: Vec::new(),
             strays: (0, Vec3::ZERO),
             leader: None,
+            water,
             relations,
         };
         for (index, one) in percepts.seen.iter().enumerate() {
@@ -116,6 +121,16 @@ impl<'a> Situation<'a> {
     /// Where the mouth is, own frame, metres.
     pub fn mouth(&self) -> Vec3 {
         Vec3::Z * (MOUTH * self.length)
+    }
+
+    /// A velocity over ground as one through the water, own frame, metres per second.
+    pub fn through_water(&self, velocity: Vec3) -> Vec3 {
+        velocity - self.water
+    }
+
+    /// Own speed through the water, metres per second.
+    pub fn own_speed(&self) -> f32 {
+        self.through_water(self.percepts.velocity).length()
     }
 
     /// The predator that is feared most, with that fear.

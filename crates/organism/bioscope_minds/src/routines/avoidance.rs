@@ -7,6 +7,9 @@ use super::Command;
 use crate::attention::{Preferences, Situation, Skill, Threat, azimuth, elevation};
 use crate::nature::Temper;
 
+/// Speed at which another comes nearer from which it is dodged with all strength, body lengths per second.
+const PRESSING: f32 = 0.6;
+
 /// The routines avoiding-static-obstacle and avoiding-fish (Tu 1996, 6.4.1; details chosen).
 ///
 /// The fish turns to the side at which it passes sooner, unless there is something to be said against that
@@ -83,12 +86,14 @@ impl Avoidance {
         let crossing = other.velocity.x.abs() > 0.5 * other.velocity.length() && place.z > 0.0;
         let natural = if crossing { -other.velocity.x } else { -place.x };
         self.choose(natural, 0.05 * situation.length, preferences, random);
-        let closing = relative.dot(place) < 0.0;
+        let rate = -relative.dot(place.normalize_or_zero()) / situation.length;
+        let closing = rate > 0.0;
         if place.z < -0.2 * situation.length && !closing {
             return Command::ahead(temper.cruise_speed);
         }
         let gap = (place.length() / situation.length).clamp(0.2, 1.5);
-        let angle = (if closing { 0.9 } else { 0.45 }) / gap;
+        // Who swims alongside is given way to a little, who comes up fast at once.
+        let angle = (0.15 + 0.75 * (rate / PRESSING).clamp(0.0, 1.0)) / gap;
         let slower = if place.z > 0.0 && closing { 0.6 } else { 1.0 };
         let blocked = place.z > 0.0 && place.length() < 0.35 * situation.length;
         let command =

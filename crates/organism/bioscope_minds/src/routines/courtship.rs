@@ -19,6 +19,10 @@ const STAGE_LIMIT: f64 = 40.0;
 const AFTERGLOW: f64 = 3.0;
 /// Seconds of a loop that lead away from the female.
 const LOOP_TIME: f64 = 0.8;
+/// Where a partner out of sight is sought, radians from straight ahead.
+const BEHIND: f32 = 2.6;
+/// Deviation of a tail on the other side from which it is reached by going on round, radians.
+const ROUND: f32 = 1.2;
 /// Seconds for which those who rejected it are not courted again.
 const GRUDGE: f64 = 20.0;
 /// Most of those.
@@ -71,6 +75,8 @@ pub struct Courtship {
     /// Angle turned through while circling, radians, and the bearing in the world up to which it was counted.
     turned: f32,
     bearing: Option<f32>,
+    /// Sense in which they circle, +1 to the left, −1 to the right; 0 not decided.
+    sense: f32,
     /// World time up to which it shows that it has spawned.
     spawned_until: f64,
     /// Those who would not have it, and until when they are avoided.
@@ -122,10 +128,7 @@ impl Courtship {
             Stage::Follow => follow(partner, situation, temper),
             Stage::Display | Stage::Loop if female => hover(now),
             Stage::Display | Stage::Loop => self.swim_loop(partner, situation, temper),
-            Stage::Circle => {
-                let tail = partner.position - partner.heading * (0.5 * partner.size);
-                toward(tail, partner.velocity, situation, temper)
-            }
+            Stage::Circle => self.circle(partner, situation, temper),
             Stage::Ascend if female => rise(situation, temper),
             Stage::Nuzzle if female => hover(now),
             Stage::Ascend => {
@@ -159,7 +162,8 @@ impl Courtship {
         if female && matches!(self.stage, Stage::Loop | Stage::Nuzzle) {
             return hover(now);
         }
-        Command { turn: 1.5 * self.side, ..Command::ahead(0.7 * temper.cruise_speed) }
+        let side = if self.sense == 0.0 { self.side } else { self.sense };
+        Command { turn: BEHIND * side, ..Command::ahead(0.7 * temper.cruise_speed) }
     }
 
     /// Whether it has a partner of whom it knew a moment ago.
@@ -181,7 +185,7 @@ impl Courtship {
     fn enter(&mut self, stage: Stage, now: f64) {
         (self.stage, self.since) = (stage, now);
         (self.count, self.turned, self.busy_until) = (0, 0.0, 0.0);
-        self.bearing = None;
+        (self.bearing, self.sense) = (None, 0.0);
     }
 
     fn give_up(&mut self, now: f64) {
@@ -314,6 +318,23 @@ impl Courtship {
         toward(point - situation.mouth(), partner.velocity, situation, temper)
     }
 
+    /// Circling: chases the partner's tail, on and on to the same side. Both see alike which side that is: the one to
+    /// which each goes round the other as it begins.
+    fn circle(&mut self, partner: &Sighting, situation: &Situation, temper: &Temper) -> Command {
+        if self.sense == 0.0 {
+            let relative = partner.velocity - situation.percepts.velocity;
+            self.sense = if partner.position.cross(relative).y < 0.0 { -1.0 } else { 1.0 };
+        }
+        let tail = partner.position - partner.heading * (0.5 * partner.size);
+        let command = toward(tail, partner.velocity, situation, temper);
+        if command.turn * self.sense >= 0.0 {
+            return command;
+        }
+        // On the other side: goes on, or, where it is behind, round.
+        let turn = if command.turn.abs() > ROUND { ROUND * self.sense } else { 0.0 };
+        Command { turn, ..command }
+    }
+
     /// Adds up the angle turned through.
     fn count_turns(&mut self, percepts: &Percepts) {
         let ahead = percepts.attitude * Vec3::Z;
@@ -370,8 +391,9 @@ fn approach(
     situation: &Situation,
     temper: &Temper,
 ) -> Command {
+    let velocity = situation.through_water(velocity);
     let goal = Chase { target, velocity, tolerance: TOLERANCE, lead: 0.0, stop };
-    chase(&goal, situation.length, situation.percepts.velocity.length(), temper)
+    chase(&goal, situation.length, situation.own_speed(), temper)
 }
 
 /// Stays where it is and bobs its head.

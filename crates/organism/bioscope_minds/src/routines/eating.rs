@@ -46,13 +46,12 @@ pub fn eat(morsel: &Morsel, situation: &Situation, temper: &Temper) -> Command {
     let target = morsel.sighting.position - situation.mouth();
     let goal = Chase {
         target,
-        velocity: morsel.sighting.velocity,
+        velocity: situation.through_water(morsel.sighting.velocity),
         tolerance: math::mix(TOLERANCE.1, TOLERANCE.0, share),
         lead: temper.lead,
         stop: 0.0,
     };
-    let own_speed = situation.percepts.velocity.length();
-    let mut command = chase(&goal, length, own_speed, temper);
+    let mut command = chase(&goal, length, situation.own_speed(), temper);
     let near = distance / temper.suck_distance;
     command.mouth = (ANTICIPATION - near).clamp(0.0, 1.0);
     if near < 1.0 {

@@ -8,12 +8,22 @@ use crate::nature::Temper;
 
 /// Deviation from the course of the school that it does not mind (Tu 1996, 6.5.2), halved: choice.
 const TOLERANCE: f32 = PI / 10.0;
+/// Share of a smaller deviation that it corrects at a time; of larger ones the more the larger they are.
+const GENTLE: f32 = 0.3;
+/// Sharpest turn in formation, radians: a sharper one breaks its stroke and leaves it behind.
+const SHARPEST: f32 = 0.8;
+/// Draw of the middle of the school in view, per body length.
+const COHESION: f32 = 0.4;
+/// By how much it is faster per body length that it is behind its leader, body lengths per second.
+const HURRY: f32 = 0.25;
+/// Speed from which a course shows, body lengths per second.
+const COURSE: f32 = 0.2;
 /// Neighbors that it heeds, the nearest first.
 const HEEDED: usize = 7;
 /// Share of the spacing by which a gap may be wider before it is closed.
 const SLACK: f32 = 0.3;
 /// Distance of the nearest neighbor beyond which it hurries to the school, body lengths.
-const APART: f32 = 3.0;
+const APART: f32 = 2.0;
 
 /// The routine schooling (Tu 1996, 6.5.2; its figure is lost): with nobody near it chases its leader or the
 /// middle of those it sees; else it matches the mean course and speed of its neighbors, closes gaps wider than
@@ -21,24 +31,21 @@ const APART: f32 = 3.0;
 /// it falls behind. The leader, if in view, counts as the neighbor that shows the way.
 pub fn school(situation: &Situation, temper: &Temper) -> Option<Command> {
     let length = situation.length;
-    let own_speed = situation.percepts.velocity.length();
     let nearest = situation.school.first().map(|one| one.position.length());
     let follow = |target: Vec3, velocity: Vec3| {
         let stop = temper.spacing * length;
+        let velocity = situation.through_water(velocity);
         let goal = Chase { target, velocity, tolerance: TOLERANCE, lead: 0.0, stop };
-        Some(chase(&goal, length, own_speed, temper))
+        Some(chase(&goal, length, situation.own_speed(), temper))
     };
     match (nearest, situation.leader) {
         (None, None) if situation.strays.0 == 0 => None,
-        (None, None) => follow(situation.strays.1, Vec3::ZERO),
+        (None, None) => follow(situation.strays.1, situation.water),
         (None, Some(leader)) => follow(leader.position, leader.velocity),
-        (Some(distance), leader) if distance > APART * length => match leader {
-            Some(leader) => follow(leader.position, leader.velocity),
-            None => {
-                let (middle, velocity) = mean(&situation.school);
-                follow(middle, velocity)
-            }
-        },
+        (Some(distance), _) if distance > APART * length => {
+            let (middle, velocity) = mean(&situation.school);
+            follow(middle, velocity)
+        }
         (Some(_), leader) => Some(in_formation(situation, leader, temper)),
     }
 }
@@ -46,18 +53,22 @@ pub fn school(situation: &Situation, temper: &Temper) -> Option<Command> {
 fn in_formation(situation: &Situation, leader: Option<&Sighting>, temper: &Temper) -> Command {
     let length = situation.length;
     let neighbors = &situation.school[..situation.school.len().min(HEEDED)];
-    let (middle, velocity) = mean(neighbors);
-    let course = neighbors.iter().map(|one| one.heading).sum::<Vec3>().normalize_or_zero();
+    let (_, velocity) = mean(neighbors);
+    let ways = neighbors.iter().map(|one| way(one, situation));
+    let course = ways.sum::<Vec3>().normalize_or_zero();
     // Towards each neighbor that is much farther than the spacing, away from those that are nearer.
     let spacing = temper.spacing * length;
     let pull = |place: Vec3| {
         let excess = place.length() / spacing - 1.0;
-        let weight = 0.35 * (excess - SLACK).clamp(0.0, 2.0) + 4.0 * excess.min(0.0);
+        let weight = 0.5 * (excess - SLACK).clamp(0.0, 2.0) + 4.0 * excess.min(0.0);
         place.normalize_or_zero() * weight
     };
     let gaps =
         neighbors.iter().map(|one| pull(one.position)).sum::<Vec3>() / neighbors.len() as f32;
-    let (mut wanted, mut pace) = (course + gaps, velocity.length());
+    // The nearest alone would let a school fall into parts: all of it in view draws.
+    let middle = mean(&situation.school).0 / length;
+    let mut wanted = course + gaps + middle.clamp_length_max(1.5) * COHESION;
+    let mut pace = situation.through_water(velocity).length();
     let (strays, place) = situation.strays;
     if strays > 0 {
         // Two parts of a school close: the smaller turns more, and hurries if it is behind.
@@ -67,22 +78,30 @@ fn in_formation(situation: &Situation, leader: Option<&Sighting>, temper: &Tempe
     }
     if let Some(leader) = leader {
         let behind = leader.position.length() / length - 2.0 * temper.spacing;
-        wanted += leader.heading * 0.5
-            + leader.position.normalize_or_zero() * (0.2 * behind).clamp(0.0, 1.0);
-        pace = 0.5 * (pace + leader.velocity.length());
+        let to_leader = leader.position.normalize_or_zero();
+        wanted += way(leader, situation) * 0.5 + to_leader * (0.2 * behind).clamp(0.0, 1.0);
+        pace = 0.5 * (pace + situation.through_water(leader.velocity).length());
+        pace += HURRY * length * (behind * to_leader.z).clamp(0.0, 4.0);
     }
     let turn = azimuth(wanted);
-    let along = middle.z / length;
+    let along = middle.z;
     let speed = pace / length + 0.5 * (along + gaps.z).clamp(-1.0, 1.5);
     let speed = speed.clamp(0.3 * temper.cruise_speed, temper.full_speed);
-    let overtakes = along < -0.8 && situation.percepts.velocity.length() > 1.2 * pace;
+    let overtakes = along < -0.8 && situation.own_speed() > 1.2 * pace;
     Command {
-        turn: if turn.abs() > TOLERANCE { turn } else { 0.5 * turn },
-        pitch: elevation(wanted + Vec3::Y * (0.3 * middle.y / length)).clamp(-0.8, 0.8),
+        turn: (turn * (GENTLE + (turn.abs() - TOLERANCE).clamp(0.0, 1.0 - GENTLE)))
+            .clamp(-SHARPEST, SHARPEST),
+        pitch: elevation(wanted + Vec3::Y * (0.3 * middle.y)).clamp(-0.8, 0.8),
         speed,
         brake: if overtakes { 0.4 } else { 0.0 },
         mouth: 0.0,
     }
+}
+
+/// Where another is going, unit length: its course rather than its head, which swings with the tail.
+fn way(one: &Sighting, situation: &Situation) -> Vec3 {
+    let velocity = situation.through_water(one.velocity);
+    if velocity.length() > COURSE * one.size { velocity.normalize_or_zero() } else { one.heading }
 }
 
 /// Mean place and velocity.

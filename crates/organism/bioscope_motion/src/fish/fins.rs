@@ -35,15 +35,17 @@ impl Default for Fins {
 }
 
 impl Fins {
-    /// Sets the fins as commanded and as pitch, roll and the bend of the body ask for, and returns the force of the left and
-    /// of the right one. `oars` is how hard they row against each other to turn to the left, −1 to 1.
+    /// Sets the fins as commanded and as pitch, roll and bend of the body ask for, and returns the force of the left and
+    /// of the right one. With the bend comes how `slow` the fish is, 0 (cruises) to 1 (stands): the slow row with both against
+    /// each other to turn, and beat them up and down to rise, dive and keep upright.
     pub(super) fn advance(
         &mut self,
         settings: &FinSettings,
         command: &Command,
-        (feeling, [bend, oars]): (&Feeling, [f32; 2]),
+        (feeling, [bend, slow]): (&Feeling, [f32; 2]),
         dt: f32,
     ) -> [Vec3; 2] {
+        let oars = bend * slow;
         let (pitch, roll) = (feeling.frame.pitch(), feeling.frame.roll());
         let rates = if self.settled {
             [(pitch - self.pitch) / dt, (roll - self.roll) / dt]
@@ -61,6 +63,7 @@ impl Fins {
             _ => lift,
         };
         let lean = -effort(settings.roll, -roll, rates[1]);
+        let trim = [lift, lean].map(|one| settings.oar as f32 * slow * one / GREATEST);
         let brake = command.brake.clamp(0.0, 1.0);
         self.angles = [-lean, lean].map(|lean| {
             let angle = NEUTRAL + (lift + lean).clamp(-GREATEST, GREATEST);
@@ -71,6 +74,10 @@ impl Fins {
         let couple = feeling.frame.ahead * (settings.oar as f32 * oars);
         let area = settings.area as f32;
         let [left, right] = self.angles.map(|angle| force(area, angle, feeling) + row * 0.5);
+        // Who hardly moves has no lift: it beats the fins down or up instead.
+        let [left, right] = [left, right].map(|one| one + feeling.frame.up * trim[0]);
+        let roll = feeling.frame.up * trim[1];
+        let [left, right] = [left - roll, right + roll];
         // In a sharp turn the inner one is held against the water.
         let drag = force(area * settings.yaw as f32, PI, feeling);
         let [inner_left, inner_right] =

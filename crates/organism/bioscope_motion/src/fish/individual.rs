@@ -188,9 +188,9 @@ impl<R: Dispatch> Group<R> {
 }
 
 /// Puts the forces of the left and the right pectoral fin on the first three rings, so that they act at the fins'
-/// distance from the axis.
+/// distance from the axis. Like the skin they push the harder the thicker the fluid.
 fn push_fins<R: Dispatch>(model: &FishModel, fins: [Vec3; 2], push: &mut [Triple<R>], lane: usize) {
-    let FishDesign { fins: settings, shape, .. } = &model.design;
+    let FishDesign { fins: settings, shape, medium, .. } = &model.design;
     for ring in 0..3 {
         let wide = shape.half_widths[ring];
         let outward = settings.arm.max(wide) / wide;
@@ -199,7 +199,7 @@ fn push_fins<R: Dispatch>(model: &FishModel, fins: [Vec3; 2], push: &mut [Triple
             for axis in 0..3 {
                 let (near, far) = (f64::from(near[axis]), f64::from(far[axis]));
                 let force = near * (1.0 + outward) + far * (1.0 - outward);
-                let value = 0.25 * settings.weights[ring] * force;
+                let value = 0.25 * medium.thickness * settings.weights[ring] * force;
                 push[4 * ring + 1 + corner][axis].set_lane(lane, value);
             }
         }

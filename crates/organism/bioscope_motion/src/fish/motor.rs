@@ -93,11 +93,13 @@ pub struct Effort {
     pub fins: [Vec3; 2],
 }
 
-/// Bend per radian that is still to be turned after the next time units; for less than the small angle, which the beat
-/// alone may swing the trunk by, it is gentler.
+/// Bend per radian that is still to be turned after the next time units.
 const STEERING: f32 = 4.0;
 const LOOKAHEAD: f32 = 1.5;
-const SMALL: f32 = 0.15;
+/// Angle, radians, below which the bend is gentler, as the beat alone may swing the trunk by as much, and the deepest bend:
+/// in a turn by a given angle, and while led by a mind that corrects itself.
+const ALONE: (f32, f32) = (0.15, 1.0);
+const LED: (f32, f32) = (0.3, 0.85);
 /// Radians, and radians per time unit, within which a watched turn is done.
 const ARRIVED: [f32; 2] = [0.08, 0.03];
 /// Extra stroke per lack of speed.
@@ -189,7 +191,7 @@ impl Motor {
         let turning = self.turn_or_hold(design, dt);
         self.beat(design, dt);
         let slow = (1.0 - self.pace / design.swim.cruise as f32).clamp(0.0, 1.0);
-        let effort = [self.bend, self.bend * slow];
+        let effort = [self.bend, slow];
         let fins = self.fins.advance(&design.fins, &self.command, (feeling, effort), dt);
         Effort { contraction: self.contraction(design, turning), fins }
     }
@@ -228,12 +230,13 @@ impl Motor {
         let led = self.command.speed > 0.0 || self.rounding || self.command.steer.is_some();
         let held = self.feedback && led;
         let lack = if held { self.to_turn - LOOKAHEAD * self.turning } else { 0.0 };
-        let wanted = STEERING * lack * (lack.abs() / SMALL).min(1.0) / authority;
+        let (small, deepest) = if self.rounding { ALONE } else { LED };
+        let wanted = STEERING * lack * (lack.abs() / small).min(1.0) / authority;
         if self.to_turn.abs() < ARRIVED[0] && self.turning.abs() < ARRIVED[1] {
             self.rounding = false;
         }
         let change = design.turn.rate as f32 * dt;
-        self.bend += (wanted.clamp(-1.0, 1.0) - self.bend).clamp(-change, change);
+        self.bend += (wanted.clamp(-deepest, deepest) - self.bend).clamp(-change, change);
         false
     }
 

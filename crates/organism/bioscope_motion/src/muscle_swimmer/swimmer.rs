@@ -1,6 +1,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use bioscope_core::math::TAU;
 use bioscope_core::{
     Intention, Parameter, Parameters, Quat, Random, Result, Value, Vec3, math, state,
 };
@@ -15,6 +16,12 @@ use crate::undulation::{Spine, SwimState};
 
 /// Wish to turn, radians, below which there is none.
 const STRAIGHT: f32 = 1e-4;
+
+/// Wish to turn, radians, from which either side will do.
+const BEHIND: f32 = 1.8;
+
+/// Deviation below which the course that it has is held, radians: it cannot tell it from the swing of its beat.
+const HELD: f32 = 0.06;
 
 /// Share of its own climb that a fish gives up, so that one that only looks ahead comes back to level.
 const LEVELING: f32 = 0.3;
@@ -140,8 +147,13 @@ impl MuscleSwimmer {
         let climb = pitch(way) - LEVELING * pitch(ahead);
         let motor = self.fish.motor(0);
         if intention.turn().abs() > STRAIGHT {
-            let turn = yaw(way) - yaw(ahead) + motor.sway();
-            return (Some(wrapped(turn)), climb);
+            let turn = wrapped(yaw(way) - yaw(ahead) + motor.sway());
+            // To what is behind it turns on over the side that it has begun with.
+            let other_way = turn.abs() > BEHIND && turn * motor.bend < 0.0;
+            let turn = if other_way { turn - TAU.copysign(turn) } else { turn };
+            if turn.abs() > HELD {
+                return (Some(turn), climb);
+            }
         }
         // Straight on: the course that it has then is held from then on.
         let went_straight = motor.command.steer.is_none_or(|steer| steer == 0.0);

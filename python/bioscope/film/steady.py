@@ -1,0 +1,113 @@
+"""A camera in the hands of somebody who swims beside an animal.
+
+It goes with the animal and looks where it is going, late and loosely. It stays on the side on which
+it is: while the animal turns it does not swing round with it, but comes about slowly.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bioscope import _engine
+
+if TYPE_CHECKING:
+    from bioscope._engine import Camera, Scene
+
+_PLACE_LAG, _AIM_LAG, _SIDE_LAG = 0.5, 0.35, 7.0
+"""Time constants of going with the animal, of looking at it, of coming about, seconds."""
+_LEAD = 0.1
+"""How far ahead of the animal it looks, as a share of its distance."""
+
+_Point = NDArray[np.float64]
+
+
+class Steady:
+    """The camera of one shot that goes with one animal.
+
+    Parameters
+    ----------
+    animal
+        Identity of the animal.
+    place, yaw
+        Where it is, metres, and where it heads, radians from +Z towards +X.
+    camera
+        Where the shot begins.
+    """
+
+    def __init__(self, animal: int, place: _Point, yaw: float, camera: Camera) -> None:
+        self.animal = animal
+        arm = np.array(camera.position, float) - place
+        self.reach, self.height = math.hypot(arm[0], arm[2]), float(arm[1])
+        self.bearing = math.atan2(arm[0], arm[2])
+        self.side = self.bearing - yaw
+        self.field_of_view = camera.field_of_view
+        self.place, self.aim = place, self._ahead(place, yaw)
+
+    @classmethod
+    def begin(cls, scene: Scene, rig: dict[str, Any], camera: Camera) -> Steady | None:
+        """Begin a shot of the animal of a following rig; none if it goes with nobody."""
+        if rig["kind"] != "follow":
+            return None
+        left = rig["index"]
+        for batch in scene.batches:
+            if batch.species == rig["species"]:
+                if left < len(batch.ids):
+                    place, yaw = _pose(batch, left)
+                    return cls(int(batch.ids[left]), place, yaw, camera)
+                left -= len(batch.ids)
+        return None
+
+    def camera(self, scene: Scene, dt: float) -> Camera:
+        """Return the camera `dt` seconds later; it stays where it is if the animal is gone."""
+        found = _find(scene, self.animal)
+        if found is not None:
+            place, yaw = found
+            self.place = self.place + (place - self.place) * _share(dt, _PLACE_LAG)
+            self.aim = self.aim + (self._ahead(place, yaw) - self.aim) * _share(dt, _AIM_LAG)
+            about = math.remainder(yaw + self.side - self.bearing, math.tau)
+            self.bearing += about * _share(dt, _SIDE_LAG)
+        arm = (
+            math.sin(self.bearing) * self.reach,
+            self.height,
+            math.cos(self.bearing) * self.reach,
+        )
+        position = (self.place + arm).tolist()
+        return _engine.Camera.looking_at(position, self.aim.tolist(), self.field_of_view)
+
+    def _ahead(self, place: _Point, yaw: float) -> _Point:
+        return place + np.array([math.sin(yaw), 0.0, math.cos(yaw)]) * (_LEAD * self.reach)
+
+    def state(self) -> dict[str, Any]:
+        """Return what is needed to go on later."""
+        arrays = {"place": self.place.tolist(), "aim": self.aim.tolist()}
+        return vars(self) | arrays
+
+    @classmethod
+    def restored(cls, state: dict[str, Any]) -> Steady:
+        """Go on from where `state` was taken."""
+        steady = cls.__new__(cls)
+        vars(steady).update(state)
+        steady.place, steady.aim = np.array(state["place"]), np.array(state["aim"])
+        return steady
+
+
+def _share(dt: float, lag: float) -> float:
+    return 1.0 - math.exp(-dt / lag)
+
+
+def _find(scene: Scene, animal: int) -> tuple[_Point, float] | None:
+    for batch in scene.batches:
+        if batch.alive and len(index := np.flatnonzero(batch.ids == animal)):
+            return _pose(batch, int(index[0]))
+    return None
+
+
+def _pose(batch: Any, index: int) -> tuple[_Point, float]:
+    """Return place and heading of one of a batch."""
+    x, y, z, w = (float(one) for one in batch.rotations[index])
+    ahead = (2 * (x * z + w * y), 1 - 2 * (x * x + y * y))
+    return np.array(batch.positions[index], float), math.atan2(*ahead)
