@@ -75,6 +75,8 @@ def test_skin_is_hardly_stretched_in_normal_swimming():
     assert np.isfinite(mesh.uvs).all()
     assert (mesh.uvs >= 0).all()
     assert (mesh.uvs <= 1).all()
+    # It starts from rest with strokes that bend it more than swimming does.
+    world.step(70)
     worst = []
     for _ in range(30):
         world.step(4)

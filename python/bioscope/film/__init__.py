@@ -2,7 +2,6 @@
 
 from bioscope.film.film import film_world
 from bioscope.film.options import FilmOptions, parse_size
-from bioscope.film.rehearsal import rehearse
 from bioscope.film.still import take_still
 
-__all__ = ["FilmOptions", "film_world", "parse_size", "rehearse", "take_still"]
+__all__ = ["FilmOptions", "film_world", "parse_size", "take_still"]

@@ -12,6 +12,10 @@ import bioscope as bio
 from bioscope.worlds.seascape import pillar, seascape
 
 FILM_SEED = 4
+PLATES = {
+    "fishing_line": (FILM_SEED, 15.0, "hook"),
+    "hooked_fish": (FILM_SEED, 20.0, "haul"),
+}
 _HOME = (0.0, -4.3, 0.2)
 _BITE = "bait"
 
@@ -48,4 +52,4 @@ def _place_cameras(bay: bio.World) -> None:
     cameras.follow("tang", species="yellow_tang", offset=(2.6, 0.5, 2.6))
     cameras.fixed("hook", position=(0.65, -4.25, 1.25), target=(0.2, -3.95, 0.4), field_of_view=42)
     cameras.fixed("haul", position=(0.75, -4.2, 1.4), target=(0.2, -2.9, 0.4), field_of_view=58)
-    bay.shots = [("bay", 5.0), ("angelfish", 4.0), ("hook", 7.2), ("haul", 5.8), ("bay", 4.0)]
+    bay.shots = [("bay", 5.0), ("angelfish", 4.0), ("hook", 8.6), ("haul", 6.8), ("tang", 4.0)]

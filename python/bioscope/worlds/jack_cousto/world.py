@@ -15,6 +15,7 @@ import bioscope as bio
 from bioscope.worlds.seascape import Guide, seascape
 
 FILM_SEED = 1
+PLATES = {"stalked_school": (FILM_SEED, 14.0, "school")}
 _SHARK, _PREY, _LEADER = "blacktip_shark", "fusilier", "parrotfish"
 
 

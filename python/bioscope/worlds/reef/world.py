@@ -10,6 +10,8 @@ Source of the schooling: C. W. Reynolds, "Flocks, herds, and schools", SIGGRAPH 
 import bioscope as bio
 from bioscope.populations.place import Disk, Habitat, Rectangle
 
+PLATES = {"mixed_reef": (7, 5.0, "garden")}
+
 
 def world(seed: int) -> bio.World:
     """Make the reef."""

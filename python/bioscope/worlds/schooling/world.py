@@ -41,14 +41,14 @@ def world(seed: int) -> bio.World:
         home_range=30.0,
     )
     start = (3.3, -4.2, 0.4)
-    bay.add(bio.RoamingFish(_MEMBER, 20, center=start, radius=0.45, home=_HOME, mind=member))
-    start = (2.8, -4.2, 0.5)
-    guide = partial(Guide, _WAY, _HOME)
     bay.add(
         bio.RoamingFish(
-            _LEADER, 1, center=start, radius=0.05, home=_HOME, mind=guide, body="muscle_swimmer"
+            _MEMBER, 20, center=start, radius=0.45, home=_HOME, mind=member, body="swimmer"
         )
     )
+    start = (2.8, -4.2, 0.5)
+    guide = partial(Guide, _WAY, _HOME)
+    bay.add(bio.RoamingFish(_LEADER, 1, center=start, radius=0.05, home=_HOME, mind=guide))
     bay.add(bio.Plankton(500, low=(-5.0, -5.5, -3.0), high=(5.0, -1.0, 4.0)))
     _place_cameras(bay)
     return bay

@@ -41,9 +41,8 @@ pub fn chase(chase: &Chase, length: f32, own_speed: f32, temper: &Temper) -> Com
     let along = chase.velocity.dot(chase.target.normalize_or_zero()).max(0.0);
     let gap = (distance - chase.stop).max(0.0);
     let bearing = bearing(chase.target);
-    // Who turns beyond its target counts on the target's own way, too.
-    let carried = if chase.lead > 0.0 { chase.velocity.length() } else { along };
-    let circle = carried + circling(chase.target);
+    // What moves may come into reach by itself.
+    let circle = chase.velocity.length() + circling(chase.target);
     let tight = if bearing > chase.tolerance { circle } else { f32::INFINITY };
     let wanted = (along + 2.0 * gap).min(tight).min(temper.full_speed * length).max(0.15 * cruise);
     let mut command =

@@ -391,7 +391,9 @@ fn approach(
     situation: &Situation,
     temper: &Temper,
 ) -> Command {
-    let velocity = situation.through_water(velocity);
+    // The partner waits or is gone after: only what leads away from here counts, not that it bobs and sways.
+    let way = target.normalize_or_zero();
+    let velocity = way * situation.through_water(velocity).dot(way).max(0.0);
     let goal = Chase { target, velocity, tolerance: TOLERANCE, lead: 0.0, stop };
     chase(&goal, situation.length, situation.own_speed(), temper)
 }

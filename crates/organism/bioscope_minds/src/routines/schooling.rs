@@ -12,8 +12,6 @@ const TOLERANCE: f32 = PI / 10.0;
 const GENTLE: f32 = 0.3;
 /// Sharpest turn in formation, radians: a sharper one breaks its stroke and leaves it behind.
 const SHARPEST: f32 = 0.8;
-/// Draw of the middle of the school in view, per body length.
-const COHESION: f32 = 0.4;
 /// By how much it is faster per body length that it is behind its leader, body lengths per second.
 const HURRY: f32 = 0.25;
 /// Speed from which a course shows, body lengths per second.
@@ -53,7 +51,7 @@ pub fn school(situation: &Situation, temper: &Temper) -> Option<Command> {
 fn in_formation(situation: &Situation, leader: Option<&Sighting>, temper: &Temper) -> Command {
     let length = situation.length;
     let neighbors = &situation.school[..situation.school.len().min(HEEDED)];
-    let (_, velocity) = mean(neighbors);
+    let (middle, velocity) = mean(neighbors);
     let ways = neighbors.iter().map(|one| way(one, situation));
     let course = ways.sum::<Vec3>().normalize_or_zero();
     // Towards each neighbor that is much farther than the spacing, away from those that are nearer.
@@ -65,10 +63,7 @@ fn in_formation(situation: &Situation, leader: Option<&Sighting>, temper: &Tempe
     };
     let gaps =
         neighbors.iter().map(|one| pull(one.position)).sum::<Vec3>() / neighbors.len() as f32;
-    // The nearest alone would let a school fall into parts: all of it in view draws.
-    let middle = mean(&situation.school).0 / length;
-    let mut wanted = course + gaps + middle.clamp_length_max(1.5) * COHESION;
-    let mut pace = situation.through_water(velocity).length();
+    let (mut wanted, mut pace) = (course + gaps, situation.through_water(velocity).length());
     let (strays, place) = situation.strays;
     if strays > 0 {
         // Two parts of a school close: the smaller turns more, and hurries if it is behind.
@@ -84,14 +79,14 @@ fn in_formation(situation: &Situation, leader: Option<&Sighting>, temper: &Tempe
         pace += HURRY * length * (behind * to_leader.z).clamp(0.0, 4.0);
     }
     let turn = azimuth(wanted);
-    let along = middle.z;
+    let along = middle.z / length;
     let speed = pace / length + 0.5 * (along + gaps.z).clamp(-1.0, 1.5);
     let speed = speed.clamp(0.3 * temper.cruise_speed, temper.full_speed);
     let overtakes = along < -0.8 && situation.own_speed() > 1.2 * pace;
     Command {
         turn: (turn * (GENTLE + (turn.abs() - TOLERANCE).clamp(0.0, 1.0 - GENTLE)))
             .clamp(-SHARPEST, SHARPEST),
-        pitch: elevation(wanted + Vec3::Y * (0.3 * middle.y)).clamp(-0.8, 0.8),
+        pitch: elevation(wanted + Vec3::Y * (0.3 * middle.y / length)).clamp(-0.8, 0.8),
         speed,
         brake: if overtakes { 0.4 } else { 0.0 },
         mouth: 0.0,

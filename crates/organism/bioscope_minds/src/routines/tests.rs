@@ -240,7 +240,8 @@ fn a_school_matches_course_closes_gaps_and_opens_crowds() {
     assert_eq!(command(Vec::new()), None);
     let spaced =
         command(vec![swim(at(90.0, 0.1), at(40.0, 1.0)), swim(at(-90.0, 0.1), at(40.0, 1.0))]);
-    assert!((spaced.unwrap().turn - 40f32.to_radians()).abs() < 0.05, "{spaced:?}");
+    // Towards the common course, gently.
+    assert!((0.3..40f32.to_radians()).contains(&spaced.unwrap().turn), "{spaced:?}");
     let gap = command(vec![swim(at(90.0, 0.25), Vec3::Z)]).unwrap();
     let crowd = command(vec![swim(at(90.0, 0.04), Vec3::Z)]).unwrap();
     assert!(gap.turn > 0.1 && crowd.turn < -0.2, "{gap:?} {crowd:?}");
