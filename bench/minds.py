@@ -122,9 +122,7 @@ def published_scene() -> bio.World:
     for x, z in [(-0.8, -0.8), (0.8, -0.8), (-0.8, 0.8), (0.8, 0.8)]:
         world.environment.cylinder((x, -5.0, z), (x, -0.5, z), 0.15)
     mind = bio.minds.Intentions("pacifist", food=["plankton"], home_range=1.5, appetite=50.0)
-    world.add(
-        bio.RoamingFish("clownfish", 10, center=(0, -2, 0), radius=0.6, mind=mind)
-    )
+    world.add(bio.RoamingFish("clownfish", 10, center=(0, -2, 0), radius=0.6, mind=mind))
     world.add(bio.Plankton(15, low=(-1.0, -2.5, -1.0), high=(1.0, -1.5, 1.0)))
     return world
 

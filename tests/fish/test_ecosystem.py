@@ -68,6 +68,7 @@ def test_ten_minutes_bring_every_intention():
     while world.time < 600:
         world.step(15)
         seen |= {intention(world, one) for one, _ in fishes(world)}
+        seen |= {"escape" for event in world.drain_events() if event.kind == "escaped"}
     assert seen == INTENTIONS
     assert np.isfinite([place for _, place in fishes(world)]).all()
 

@@ -336,12 +336,13 @@ def test_what_the_retina_shows_is_what_is_seen():
 
 @pytest.mark.capability("TF-081", "AA-033")
 def test_brightness_is_the_mean_of_the_retinal_image():
-    lookout = Lookout(eye=True)
-    lookout.world.add(Things([lookout.place(at(a, 0.5)) for a in range(-120, 121, 30)], 0.2))
     rows, columns = np.indices((32, 32)) + 0.5
     within = (rows - 16) ** 2 + (columns - 16) ** 2 <= 16**2
     levels = []
     for sunlight in (0.0, 1.0, 2.0):
+        # The same fish at the same moment each time: it swims on.
+        lookout = Lookout(eye=True)
+        lookout.world.add(Things([lookout.place(at(a, 0.5)) for a in range(-120, 121, 30)], 0.2))
         lookout.world.environment.set(sunlight=sunlight)
         light = lookout.percepts()["light"]
         # The eye saw the scene of the tick before; nothing but the fish itself has moved since.
