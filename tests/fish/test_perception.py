@@ -93,7 +93,7 @@ class Lookout:
             "pacifist", food=food, cruise_speed=0.0, full_speed=0.0, eye=eye
         )
         self.fish = self.world.add(
-            bio.RoamingFish("anthias", 1, center=(0, 0, 0), radius=0.0, mind=mind)
+            bio.RoamingFish("anthias", 1, center=(0, 0, 0), radius=0.0, mind=mind, body="swimmer")
         )
         self.world.step(1)
         self.id = int(self.fish.values("id")[0])
