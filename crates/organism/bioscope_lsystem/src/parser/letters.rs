@@ -74,7 +74,9 @@ impl Parser<'_> {
     /// Warns of a declared module with another number of parameters.
     pub(super) fn check_arity(&mut self, symbol: &str, arity: usize, span: Range<usize>) {
         let declared = self.declared.iter().find(|(known, _)| known == symbol);
-        let Some(count) = declared.map(|(_, names)| names.len()).filter(|&count| count != arity)
+        // The age of a timed module is declared for it, and never given.
+        let given = |names: &Vec<String>| names.len() - usize::from(self.timed.is_some());
+        let Some(count) = declared.map(|(_, names)| given(names)).filter(|&count| count != arity)
         else {
             return;
         };
