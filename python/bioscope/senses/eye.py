@@ -123,6 +123,8 @@ def eyes(
 
 def turned(camera: Camera, pan: float, tilt: float, aside: float = 0.0) -> Camera:
     """Return a camera turned to the left and up (degrees), and moved aside to its left (metres)."""
+    if pan == tilt == aside == 0.0:
+        return camera
     rotation = np.array(camera.rotation)
     left = _rotated(rotation, np.array([-1.0, 0.0, 0.0]))
     return _engine.Camera(
