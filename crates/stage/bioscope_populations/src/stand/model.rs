@@ -68,7 +68,8 @@ pub(super) fn environment(options: &StandOptions) -> Result<Option<Box<dyn Envir
         let settings = settings(&asked.settings);
         return built_in(&asked.name, &settings, asked.map.clone()).map(Some).map_err(refused);
     }
-    let system = LSystem::parse(&options.sources[0], &options.file_name)?;
+    let Some(source) = options.sources.first() else { return Ok(None) };
+    let system = LSystem::parse(source, &options.file_name)?;
     match system.environment() {
         // Files are not read: a saved world must not depend on them.
         Some(words) if words.trim().ends_with(".e") => Err(Error::format(
