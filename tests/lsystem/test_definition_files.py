@@ -105,7 +105,7 @@ def test_all_sections_are_read():
     assert found.camera["observer"] == [0, 120, 250]
     assert found.camera["t_final_interval"] == [60, 0.04]
     assert found.repetition["startp_sidel_nbr_dist"] == [-50, 100, 9, 0.5]
-    assert found.options == [
+    assert [(one.name, one.words) for one in found.options] == [
         ("MaxPart", ["64"]),
         ("fConst", ["5", "2", "0", "10", "0", "0", "0", "0", "0"]),
     ]

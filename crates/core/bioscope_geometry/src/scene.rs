@@ -33,6 +33,19 @@ pub struct Scene {
     pub annotations: Vec<Annotation>,
 }
 
+impl Scene {
+    /// The scene without some individuals of its batches.
+    pub fn without(&self, ids: &[Id]) -> Self {
+        let mut scene = self.clone();
+        for batch in &mut scene.batches {
+            if batch.ids.iter().any(|id| ids.contains(id)) {
+                batch.remove(ids);
+            }
+        }
+        scene
+    }
+}
+
 /// Instances of one mesh in one material, all of one species.
 #[derive(Clone, Debug)]
 pub struct Batch {
@@ -84,6 +97,18 @@ impl Batch {
         }
     }
 
+    /// Takes out instances by their identity.
+    fn remove(&mut self, ids: &[Id]) {
+        let stays: Vec<bool> = self.ids.iter().map(|id| !ids.contains(id)).collect();
+        let joints = self.joint_count();
+        keep(&mut self.poses, &stays, joints);
+        keep(&mut self.ids, &stays, 1);
+        keep(&mut self.transforms, &stays, 1);
+        keep(&mut self.velocities, &stays, 1);
+        keep(&mut self.tints, &stays, 1);
+        keep(&mut self.displays, &stays, 1);
+    }
+
     /// How many joint poses each instance has.
     pub fn joint_count(&self) -> usize {
         if self.ids.is_empty() { 0 } else { self.poses.len() / self.ids.len() }
@@ -94,6 +119,15 @@ impl Batch {
         let count = self.joint_count();
         &self.poses[instance * count..(instance + 1) * count]
     }
+}
+
+/// Keeps the rows, of so many numbers each, of the instances that stay.
+fn keep<T>(rows: &mut Vec<T>, stays: &[bool], width: usize) {
+    let mut index = 0;
+    rows.retain(|_| {
+        index += 1;
+        stays[(index - 1) / width]
+    });
 }
 
 /// Small round things: plankton, bubbles, motes, sparks.
@@ -255,5 +289,33 @@ impl Default for Medium {
             caustic_scale: 1.0,
             shafts: 0.0,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use bioscope_core::Quat;
+
+    use super::*;
+
+    #[test]
+    fn individuals_go_with_all_that_is_theirs() {
+        let mut batch =
+            Batch::new("a", "a", Arc::new(Mesh::default()), Arc::new(Material::default()));
+        for id in 1..=4 {
+            let place = Vec3::splat(id as f32);
+            batch.ids.push(id);
+            batch.transforms.push(Transform::new(place, Quat::IDENTITY, 1.0));
+            batch.velocities.push(place);
+            batch.poses.extend([Transform::new(place, Quat::IDENTITY, 1.0); 2]);
+        }
+        let scene = Scene { batches: vec![batch], ..Scene::default() };
+        let left = &scene.without(&[2, 4, 9]).batches[0];
+        assert_eq!(left.ids, [1, 3]);
+        assert_eq!(left.transforms[1].position, Vec3::splat(3.0));
+        assert_eq!(left.velocities, [Vec3::splat(1.0), Vec3::splat(3.0)]);
+        assert!(left.tints.is_empty());
+        assert_eq!(left.pose(1), &scene.batches[0].poses[4..6]);
+        assert_eq!(scene.without(&[9]).batches[0].ids.len(), 4);
     }
 }

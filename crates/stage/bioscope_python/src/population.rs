@@ -8,6 +8,7 @@ use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 
+use crate::camera::Camera;
 use crate::environments::Environment;
 use crate::error::from_python;
 use crate::publication::Publication;
@@ -160,10 +161,17 @@ impl Population for PythonPopulation {
             if found.is_none() {
                 return Ok(None);
             }
-            let found = found.cast_into::<PyDict>()?;
+            let found = found.cast_into::<PyDict>()?.copy()?;
+            let eye = match found.get_item("eye")? {
+                Some(eye) if eye.is_instance_of::<Camera>() => {
+                    found.del_item("eye")?;
+                    Some(eye.cast_into::<Camera>()?.get().camera)
+                }
+                _ => None,
+            };
             let values = values::from_dict(Some(&found)).map_err(crate::error::to_python)?;
             let species = self.name.clone();
-            Ok(Some(Inspection { species, values, ..Inspection::default() }))
+            Ok(Some(Inspection { species, values, eye, ..Inspection::default() }))
         };
         // An inspector must not stop the world: what cannot be read is not shown.
         Python::attach(|py| read(py).ok().flatten())

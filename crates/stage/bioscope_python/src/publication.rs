@@ -1,4 +1,4 @@
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use bioscope_core::{Annotation, Error, Event, Mark, Quat, Result, SoundEvent, Vec3};
 use bioscope_geometry as geometry;
@@ -11,6 +11,7 @@ use crate::arrays;
 use crate::error::to_python;
 use crate::material::Material;
 use crate::mesh::Mesh;
+use crate::scene::Scene;
 use crate::values;
 
 /// See `bioscope.Publication`: where a population written in Python shows itself.
@@ -52,6 +53,23 @@ impl Publication {
 
 #[pymethods]
 impl Publication {
+    /// Of no world: what is shown here can be looked at by itself (`scene`).
+    #[new]
+    fn alone() -> Self {
+        Self::new(Moment { seed: 0, tick: 0, time: 0.0, dt: 0.0 })
+    }
+
+    /// What was shown so far as a scene: by itself, or in that of a world without these individuals.
+    #[pyo3(signature = (around=None, *, without=Vec::new()))]
+    fn scene(&self, around: Option<&Bound<'_, Scene>>, without: Vec<u32>) -> Scene {
+        let mut scene = around
+            .map_or_else(geometry::Scene::default, |around| around.get().scene.without(&without));
+        let parts = self.parts();
+        scene.batches.extend(parts.batches.iter().cloned());
+        scene.points.extend(parts.points.iter().cloned());
+        Scene { scene: Arc::new(scene) }
+    }
+
     #[getter]
     fn tick(&self) -> u64 {
         self.moment.tick

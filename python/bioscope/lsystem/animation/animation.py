@@ -10,21 +10,15 @@ from bioscope.files import written_whole
 from bioscope.lsystem.animation.automata import Actor, read_behavior
 from bioscope.lsystem.animation.derivation import Crew, Derivation
 from bioscope.lsystem.animation.directives import scene
-from bioscope.lsystem.animation.files import (
-    CHANNELS,
-    Channel,
-    Trajectory,
-    located,
-    plain,
-    read_surface,
-    record,
-    surface_text,
-)
+from bioscope.lsystem.animation.files import located, read_surface, record, surface_text
 from bioscope.lsystem.animation.frame import Frame
 from bioscope.lsystem.animation.functions import SENSES
 from bioscope.lsystem.animation.machine import Compiler
+from bioscope.lsystem.animation.meshes import Meshes
+from bioscope.lsystem.animation.options import MOST_ACTORS, Options
 from bioscope.lsystem.animation.particles import advance
 from bioscope.lsystem.animation.placement import placements
+from bioscope.lsystem.animation.sight import Eyes
 from bioscope.lsystem.animation.sounds import USER, VOCABULARY, Air
 from bioscope.lsystem.animation.vectors import ZERO, Pose, Vector, add, length, times, unit
 from bioscope.lsystem.animation.viewing import VOICE, Camera, Device, Light
@@ -35,20 +29,26 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
     from os import PathLike
 
+    import numpy as np
+    from numpy.typing import NDArray
+
     from bioscope.lsystem.animation.derivation import Instance
+    from bioscope.lsystem.animation.meshes import Part
     from bioscope.lsystem.animation.particles import Particle
     from bioscope.lsystem.animation.shapes import Shape
+    from bioscope.lsystem.animation.window import Window
 
 INTERVAL = 0.04
 """Seconds of a frame if the file says nothing."""
 PARTS, SEED = 4, 34743
 """Parts of a frame for particles, and the seed, if the file says nothing."""
 MOST_PARTICLES = 1000
-MOST_ACTORS = 64
 MOST_PARTS = 1000
 MOST_REMARKS = 1000
 LED = 5
 """First parameter of a `C` that an actor leads."""
+STROKE = 0.02
+"""Thickness of strokes as eyes see them, units of the model, if nothing is said of it."""
 
 
 class Source(NamedTuple):
@@ -76,15 +76,20 @@ class Animation:
     seed
         Of everything that is chance; the first definition's if not given.
     senses
-        What an actor's eyes and automata answer, by name: functions of the number of the actor.
+        What actors answer instead of what they see, by name: functions of the number of the actor.
         Names are `distance` (`?30`), `obstacle`, `looks_at_goal`, `near_goal`, `automaton` (`?35`;
         the active one of the actor's stack, if not given), `interest`, `color_of_interest`,
-        `color_of_interest_as_goal` and `at_goal`.
+        `color_of_interest_as_goal` and `at_goal`. Without actors that the definitions declare
+        (`NBR_actors`), nobody else answers.
     scripts
         What `E` and the command files 0 and 1 run: it is called with the words of the command,
         the script first. Nothing is ever run without it.
     sounds
         Seconds by number of sound.
+    stroke
+        Thickness of strokes as eyes see them, units of the model.
+    kept
+        What the actors saw when this was made before, `eyes.kept`: it is not looked for again.
 
     Raises
     ------
@@ -108,19 +113,13 @@ class Animation:
         senses: Mapping[str, Callable[[int], float]] | None = None,
         scripts: Callable[[list[str]], None] | None = None,
         sounds: Mapping[int, float] | None = None,
+        stroke: float = STROKE,
+        kept: NDArray[np.float64] | None = None,
     ) -> None:
         if not sources:
             raise FormatError("an animation needs a definition")
         given = [Source(one) if isinstance(one, str) else one for one in sources]
         self.definitions = [read(one.text, one.file) for one in given]
-        self.senses: dict[str, Callable[[int], float]] = {
-            "automaton": self._automaton,
-            **(senses or {}),
-        }
-        if unknown := set(self.senses) - set(SENSES.values()):
-            raise UnknownNameError(
-                f"unknown senses {', '.join(sorted(unknown))}; known: {', '.join(SENSES.values())}"
-            )
         self._scripts = scripts
         self.remarks: list[str] = []
         """What was tolerated but is doubtful."""
@@ -145,8 +144,6 @@ class Animation:
         """Files that the last frame made, by name: scenes of the offline renderer, boxes."""
         self.orders: list[tuple[int, int, float]] = []
         """What the last frame orders bodies to do (`H`): actor, what, how much."""
-        self.traces: dict[int, list[str]] = {}
-        """Trajectories of the actors that are traced, as lines."""
         self.racket, self.shape, self.generic = ZERO, 0.0, 0.0
         self.positions: list[Vector] = [ZERO] * TABLE
         self.states: list[Pose] = [Pose()] * TABLE
@@ -154,7 +151,13 @@ class Animation:
         self.captured: int | None = None
         self._device = Device()
         self._words: list[str] = []
-        self._tables(given, sounds or {})
+        self._meshes, self._stroke = Meshes(), stroke
+        self.air = Air(sounds or {})
+        """What is heard."""
+        self._tables(given)
+        self.eyes = Eyes(self._options.windows, kept)
+        """What the declared actors see."""
+        self.senses = self._answers(senses or {})
         self._begin(given)
 
     @classmethod
@@ -175,71 +178,44 @@ class Animation:
         """
         return cls.read(file, senses=dict.fromkeys(SENSES.values(), lambda actor: 0.0)).remarks
 
-    def _tables(self, given: Sequence[Source], sounds: Mapping[int, float]) -> None:
+    def _tables(self, given: Sequence[Source]) -> None:
         """Read the options, and the files that the definitions name."""
         self.arrays = [one.arrays for one in self.definitions]
         self.surfaces: list[dict[int, Shape]] = []
-        self.actors: dict[int, Actor] = {}
-        """Actors by number."""
-        self.windows: dict[int, tuple[int, int]] = {}
-        """By actor the edge of its vision window in pixels, and how many colors it tells apart."""
-        self.air = Air(sounds)
-        """What is heard."""
-        self.recognizer: tuple[int, str] | None = None
-        """Port and host of the recognizer of speech whose words the host hands on (`say`)."""
-        self._channels: list[Channel] = []
-        self._imported: dict[int, Trajectory] = {}
-        self._commands: dict[int, list[str]] = {}
-        self._scene: str | None = None
-        self._shown: list[tuple[int, int]] = []
-        self._most = 0
-        self._log: str | None = None
+        self._options = options = Options()
         for number, (definition, source) in enumerate(zip(self.definitions, given, strict=True)):
             self.arrays[number][-1] = [*definition.constants.get("P", ())]
-            place = definition.file
             self.surfaces.append(
                 {
-                    named: read_surface(located(name, source.folder, place))
+                    named: read_surface(located(name, source.folder, definition.file))
                     for named, name in definition.surfaces.items()
                 }
             )
-            for name, words in definition.options:
-                self._option(name, words, source.folder, place)
+            with pointing(source.text, source.file):
+                options.read(definition, source.folder)
+        self.recognizer = options.recognizer
+        """Port and host of the recognizer of speech whose words the host hands on (`say`)."""
+        self.traces: dict[int, list[str]] = {actor: [] for actor in options.traces}
+        """Trajectories of the actors that are traced, as lines."""
+        self.actors: dict[int, Actor] = {actor: Actor() for actor in range(options.actors)}
+        """Actors by number."""
+        for actor, behavior in options.behaviors:
+            self.actor(actor).push(behavior)
+        if options.sound_log is not None:
+            self.air.declare(options.sounds)
 
-    def _option(self, name: str, words: list[str], folder: Path | None, place: str) -> None:
-        number = int(float(words[0])) if words and name not in _NAMED_OPTIONS else 0
-        if name == "MaxPart":
-            self._most += max(0, number)
-        elif name == "command_file":
-            self._commands[number] = words[1:]
-        elif name == "AUDIOport_host":
-            self.recognizer = number, words[1]
-        elif name == "NBR_actors":
-            for actor in range(number):
-                self.actor(actor)
-        elif name.startswith("iVisionWinSize"):
-            self.windows[number] = int(float(words[1])), int(float(words[2]))
-        elif name == "actorNbr_automata":
-            self.actor(number).push(read_behavior(" ".join(words[1:]), place))
-        elif name == "Sound_event_file":
-            self._log = plain(words[0])
-            self.air.declare(words[1:])
-        elif name == "rs_file_path_name":
-            self._scene = plain(words[1])
-        elif name == "rs_switch":
-            ends = [int(float(one)) for one in words]
-            self._shown = list(zip(ends[::2], ends[1::2], strict=True))
-        elif name == "NbrChannels_listOfNames":
-            if not 0 <= number <= CHANNELS or len(words) != number + 1:
-                raise FormatError(f"{place}: up to {CHANNELS} data channels, and as many names")
-            self._channels += [Channel(located(one, folder, place)) for one in words[1:]]
-        elif name == "trace_actor":
-            self.traces[number] = []
-        elif name == "import_trace":
-            self._imported[number] = Trajectory(located(words[1], folder, place), number)
+    def _answers(
+        self, given: Mapping[str, Callable[[int], float]]
+    ) -> dict[str, Callable[[int], float]]:
+        """Return who answers rules: the host, else the actors that are declared."""
+        if unknown := set(given) - set(SENSES.values()):
+            known = ", ".join(SENSES.values())
+            raise UnknownNameError(f"unknown senses {', '.join(sorted(unknown))}; known: {known}")
+        seeing = self.eyes.senses(self.actor, self.remark) if self.windows else {}
+        return {"automaton": self._automaton, **seeing, **given}
 
     def _begin(self, given: Sequence[Source]) -> None:
-        self.crew = Crew(self, self._most or MOST_PARTICLES, self._push)
+        self.crew = Crew(self, self._options.most_particles or MOST_PARTICLES, self._push)
         self.layers: list[Derivation] = []
         for number, (one, source) in enumerate(zip(self.definitions, given, strict=True)):
             with pointing(source.text, source.file):
@@ -269,10 +245,16 @@ class Animation:
         return self.crew.particles
 
     @property
+    def windows(self) -> dict[int, Window]:
+        """What the declared actors see, by their numbers: `windows[0].depth`."""
+        return self.eyes.windows
+
+    @property
     def offline(self) -> bool:
         """Whether this frame is written for the offline renderer."""
-        shown = any(low <= self.frame.number <= high for low, high in self._shown)
-        return self._scene is not None and (shown or not self._shown)
+        told = self._options
+        shown = any(low <= self.frame.number <= high for low, high in told.shown)
+        return told.scene is not None and (shown or not told.shown)
 
     def advance(self) -> None:
         """Make the next frame."""
@@ -303,13 +285,10 @@ class Animation:
     def write(self, folder: str | PathLike[str]) -> None:
         """Write what the last frame made, and the sound log and trajectories so far."""
         files = dict(self.produced)
-        if self._log is not None:
-            files[self._log] = self.sound_log
-        for definition in self.definitions:
-            for name, words in definition.options:
-                if name == "trace_actor":
-                    lines = self.traces[int(float(words[0]))]
-                    files[plain(words[1])] = "".join(f"{one}\n" for one in lines)
+        if self._options.sound_log is not None:
+            files[self._options.sound_log] = self.sound_log
+        for actor, name in self._options.traces.items():
+            files[name] = "".join(f"{one}\n" for one in self.traces[actor])
         for name, text in files.items():
             with written_whole(Path(folder) / name) as path:
                 path.write_text(text, encoding="utf-8")
@@ -323,8 +302,17 @@ class Animation:
             self.air.begin(VOCABULARY[word], USER, self.camera.eye)
         self._device, self._words = Device(), []
         if self.offline:
-            name = f"{self._scene}.{self.frame.number:04d}.ray"
+            name = f"{self._options.scene}.{self.frame.number:04d}.ray"
             self.produced[name] = scene(self.frame, self.camera)
+        if self.windows:
+            self.eyes.look(self.frame.number, self.parts(), self.actors)
+
+    def parts(self) -> list[Part]:
+        """Return what the last frame shows as meshes: one per material, and per body of an actor.
+
+        A mesh is the same object as in the frame before if nothing of it has changed.
+        """
+        return self._meshes.of(self.frame, self._stroke)
 
     def string(self, layer: int = 0) -> str:
         """Return the string of a definition: symbols with age, parameters and growth values."""
@@ -378,8 +366,8 @@ class Animation:
 
     def channel(self, number: float, at: float) -> float:
         """Return the value of a data channel at a time."""
-        if 0 <= number < len(self._channels):
-            return self._channels[int(number)].at(at)
+        if 0 <= number < len(self._options.channels):
+            return self._options.channels[int(number)].at(at)
         self.remark(f"data channel {number:g} is not declared")
         return 0.0
 
@@ -398,12 +386,12 @@ class Animation:
 
     def trajectory(self, number: int) -> tuple[Vector, Vector] | None:
         """Return place and direction of an imported trajectory."""
-        found = self._imported.get(number)
+        found = self._options.trajectories.get(number)
         return found.at(self.time) if found is not None else None
 
     def run_script(self, number: int, *arguments: str) -> None:
         """Run a command file with the number of the frame and its own two words."""
-        command = self._commands.get(number)
+        command = self._options.commands.get(number)
         if command is not None and self._scripts is not None:
             script, *words = command
             self._scripts([script, str(self.frame.number), *words, *arguments])
@@ -471,9 +459,6 @@ class Animation:
         if words:
             behavior = read_behavior(words, place)
             self.actor(behavior.actor).push(behavior)
-
-
-_NAMED_OPTIONS = frozenset(["Sound_event_file", "rs_file_path_name", "VLNETdeclare", "rs_switch"])
 
 
 def boxed(low: Vector, high: Vector) -> str:

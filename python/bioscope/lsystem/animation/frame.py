@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from bioscope._engine import Mesh
 from bioscope.lsystem.animation.materials import Material, stroke_material
+from bioscope.lsystem.animation.meshes import Meshes
 from bioscope.lsystem.animation.shapes import LEAST_SIDES, triangles, tube
 from bioscope.lsystem.animation.vectors import Pose, Vector, length, subtract
 
@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from bioscope.lsystem.animation.meshes import Part
     from bioscope.lsystem.animation.shapes import Face
 
 
@@ -31,6 +32,8 @@ class Piece:
     """Numbers of corners, counterclockwise seen from outside."""
     material: Material
     smooth: bool = False
+    body: int | None = None
+    """The actor whose body it is of."""
 
     def triangles(self) -> list[tuple[int, int, int]]:
         """Return its faces as triangles."""
@@ -45,6 +48,7 @@ class Line:
     end: Vector
     color: tuple[float, float, float]
     """Red, green and blue, 0 to 255."""
+    body: int | None = None
 
     def piece(self, thickness: float) -> Piece:
         """Return it as a thin tube."""
@@ -52,7 +56,8 @@ class Line:
         ahead = length(subtract(self.end, self.start))
         corners, faces = tube(pose, ahead, (thickness, thickness), LEAST_SIDES)
         red, green, blue = (one / 255 for one in self.color)
-        return Piece("R", corners, faces, stroke_material((red, green, blue)))
+        material = stroke_material((red, green, blue))
+        return Piece("R", corners, faces, material, body=self.body)
 
 
 @dataclass(frozen=True, slots=True)
@@ -102,18 +107,9 @@ class Frame:
         low, high = points.min(axis=0), points.max(axis=0)
         return (low[0], low[1], low[2]), (high[0], high[1], high[2])
 
-    def meshes(self, stroke: float = 0.0) -> list[tuple[Material, Mesh]]:
-        """Return one mesh per material, for a scene; strokes as thick as `stroke`."""
-        grouped: dict[Material, list[Piece]] = {}
-        drawn = [line.piece(stroke) for line in self.lines] if stroke > 0 else []
-        for piece in [*self.pieces, *drawn]:
-            grouped.setdefault(piece.material, []).append(piece)
-        made = []
-        for material, pieces in grouped.items():
-            mesh = _mesh(pieces)
-            if mesh is not None:
-                made.append((material, mesh))
-        return made
+    def meshes(self, stroke: float = 0.0) -> list[Part]:
+        """Return one mesh per material and body, for a scene; strokes as thick as `stroke`."""
+        return Meshes().of(self, stroke)
 
     def surface(self) -> tuple[NDArray[np.float64], NDArray[np.uint32]]:
         """Return everything as one triangulated surface: corners (n, 3) and triangles (m, 3)."""
@@ -127,23 +123,3 @@ class Frame:
             np.array(corners, float).reshape(-1, 3),
             np.array(found, np.uint32).reshape(-1, 3),
         )
-
-
-def _mesh(pieces: list[Piece]) -> Mesh | None:
-    """Return pieces as a mesh; corners are shared where they are smooth."""
-    positions: list[Vector] = []
-    found: list[tuple[int, int, int]] = []
-    for piece in pieces:
-        made = piece.triangles()
-        if piece.smooth:
-            base = len(positions)
-            positions += piece.corners
-            found += [(base + a, base + b, base + c) for a, b, c in made]
-            continue
-        for triangle in made:
-            base = len(positions)
-            positions += [piece.corners[one] for one in triangle]
-            found.append((base, base + 1, base + 2))
-    if not found:
-        return None
-    return Mesh(np.array(positions, np.float32), np.array(found, np.uint32))

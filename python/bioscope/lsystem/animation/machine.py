@@ -144,7 +144,7 @@ class Compiler:
         if name not in self.senses:
             raise FormatError(
                 f"{expression.place}: '{token}' asks a sense of the actor, and nobody answers; "
-                f"give senses={{'{name}': ...}}"
+                f"declare actors that see with 'NBR_actors', or give senses={{'{name}': ...}}"
             )
         return lambda scope: float(scope.stage.senses[name](scope.actor))
 

@@ -30,6 +30,15 @@ class Material:
     lit: bool = True
     """Whether light falls on it; otherwise it shows its diffuse color as it is."""
 
+    @property
+    def written(self) -> tuple[int, int, int]:
+        """Its color as definitions give it, 0 to 255: its diffuse color, or that of a stroke."""
+        red, green, blue = (
+            round(255 * min(1.0, max(0.0, _encoded(one) if self.name == STROKE else one)))
+            for one in self.diffuse
+        )
+        return red, green, blue
+
     def surface(self) -> Surface:
         """Return it for a scene."""
         return Surface(
@@ -41,12 +50,21 @@ class Material:
         )
 
 
+STROKE = "stroke"
+"""Name of the material of strokes."""
+
+
 def stroke_material(color: Color) -> Material:
     """Return the material of strokes of a color as screens show it, 0 to 1 (sRGB)."""
     red, green, blue = (
         one / 12.92 if one <= 0.04045 else power((one + 0.055) / 1.055, 2.4) for one in color
     )
-    return _named("stroke", (red, green, blue))
+    return _named(STROKE, (red, green, blue))
+
+
+def _encoded(linear: float) -> float:
+    """Return a linear color as screens show it (sRGB)."""
+    return linear * 12.92 if linear <= 0.0031308 else 1.055 * power(linear, 1 / 2.4) - 0.055
 
 
 def _named(name: str, diffuse: Color, specular: float = 0.04, roughness: float = 0.8) -> Material:

@@ -44,13 +44,15 @@ class Walk:
         self.first = index == 0
         self.repetition = index
         self.pose, self.scale = at.pose, at.scale
-        self.branches: list[Pose] = []
+        self.branches: list[tuple[Pose, int | None]] = []
         self.polygons: list[list[Vector]] = []
         self.material: Material = MATERIALS[7]
         self.color: Vector = (255.0, 255.0, 255.0)
         self.sides = shapes.SIDES
         self.particle: Particle | None = None
         self.actor = 0
+        self.body: int | None = None
+        """The actor whose body is drawn: from `M` or `g` to the end of their branch."""
         self.tropism: Instance | None = None
         self.rigidity = 1.0
         self.bends = False
@@ -98,7 +100,8 @@ class Walk:
     def draw(self, one: Instance, shape: Shape, *, smooth: bool = False) -> None:
         """Add a shape of the current material."""
         corners, faces = shape
-        self.animation.frame.items.append(Piece(one.symbol, corners, faces, self.material, smooth))
+        piece = Piece(one.symbol, corners, faces, self.material, smooth, self.body)
+        self.animation.frame.items.append(piece)
 
     def size(self, one: Instance) -> Vector:
         """Return the growth values as lengths at this place."""
@@ -148,7 +151,7 @@ class Walk:
             if len(self.branches) >= DEEPEST:
                 self.animation.remark(f"more than {DEEPEST} open branches; one is left out")
                 return
-            self.branches.append(self.pose)
+            self.branches.append((self.pose, self.body))
         elif 0 < mode < TABLE:
             if one.mode(2) == 0:
                 self.animation.positions[mode] = self.pose.position
@@ -159,7 +162,7 @@ class Walk:
         mode = one.mode(1)
         if mode == 0:
             if self.branches:
-                self.pose = self.branches.pop()
+                self.pose, self.body = self.branches.pop()
         elif 0 < mode < TABLE and one.mode(2) != 0:
             self.pose = self.animation.states[mode]
         elif 0 < mode < TABLE:
@@ -203,7 +206,7 @@ class Walk:
     def _line(self, one: Instance) -> None:
         start = self.pose.position
         self.advance(self.size(one)[0])
-        self.animation.frame.items.append(Line(start, self.pose.position, self.color))
+        self.animation.frame.items.append(Line(start, self.pose.position, self.color, self.body))
 
     def _begin_polygon(self, one: Instance) -> None:
         self.polygons.append([])
@@ -300,17 +303,19 @@ class Walk:
 
     def _mapped(self, one: Instance) -> None:
         if one.mode(1) == 7:
-            self.actor = one.mode(3)
+            self.actor = self.body = one.mode(3)
             actor = self.animation.actor(self.actor)
             self.pose = self.pose.at(actor.position).toward(actor.heading)
 
     def _led(self, one: Instance) -> None:
+        if one.mode(1) != 1:
+            self.body = self.actor
         if not self.first:
             return
         actor = self.animation.actor(self.actor)
         place = self.pose.position
         if one.mode(1) == 1:
-            actor.local_goals[0] = place
+            actor.set_local_goal(0, place)
             return
         if one.mode(1) == 2:
             place = place[0], one.growth[0], place[2]

@@ -131,6 +131,20 @@ class Rule:
         return "\n".join([head, *made, "End"])
 
 
+@dataclass(frozen=True, slots=True)
+class Option:
+    """An entry of the section of options."""
+
+    name: str
+    words: list[str]
+    places: list[str] = field(compare=False, default_factory=list)
+    """Where the name stands, and every word."""
+
+    def error(self, message: str, word: int = -1) -> FormatError:
+        """Return what is wrong with a word, or with the whole."""
+        return FormatError(f"{self.places[word + 1]}: {message}")
+
+
 @dataclass(slots=True)
 class Definition:
     """A definition file."""
@@ -138,7 +152,7 @@ class Definition:
     file: str = field(compare=False)
     camera: dict[str, list[float]] = field(default_factory=dict)
     repetition: dict[str, list[float]] = field(default_factory=dict)
-    options: list[tuple[str, list[str]]] = field(default_factory=list)
+    options: list[Option] = field(default_factory=list)
     splines: dict[int, list[tuple[float, float]]] = field(default_factory=dict)
     constants: dict[str, list[float]] = field(default_factory=dict)
     surfaces: dict[int, str] = field(default_factory=dict)
@@ -149,9 +163,9 @@ class Definition:
     def arrays(self) -> dict[int, list[float]]:
         """The constant arrays `fConst`, eight numbers each."""
         found = {}
-        for name, words in self.options:
-            if name == "fConst":
-                number, *values = words
+        for option in self.options:
+            if option.name == "fConst":
+                number, *values = option.words
                 found[int(float(number))] = [*map(float, values)]
         return found
 
@@ -159,7 +173,7 @@ class Definition:
         """Return the file, which reads back as the same definition."""
         lines = [SECTIONS[0], *(f"{name} {_told(one)}" for name, one in self.camera.items())]
         lines += [SECTIONS[1], *(f"{name} {_told(one)}" for name, one in self.repetition.items())]
-        lines += [SECTIONS[2], *(" ".join((name, *words)) for name, words in self.options)]
+        lines += [SECTIONS[2], *(" ".join((one.name, *one.words)) for one in self.options)]
         lines.append(SECTIONS[3])
         for number, keys in self.splines.items():
             pairs = " ".join(_told(key) for key in keys)
@@ -327,10 +341,12 @@ class _Reader:
             return
         if name not in OPTIONS:
             raise self.error(f"unknown option '{name}'; {meant(name, OPTIONS)}")
+        places = [self.place()]
         self.at += len(name)
         words: list[str] = []
         for kind in OPTIONS[name].removesuffix("*"):
             self.peek()
+            places.append(self.place())
             begin = self.at
             if kind == "i":
                 self.whole(f"a whole number of '{name}'")
@@ -342,8 +358,9 @@ class _Reader:
         while OPTIONS[name].endswith("*") and (found := self.peek()):
             if found in OPTIONS or found in SECTIONS or found == "function":
                 break
+            places.append(self.place())
             words.append(self.word("a word"))
-        definition.options.append((name, words))
+        definition.options.append(Option(name, words, places))
 
     def spline(self, definition: Definition) -> None:
         self.keyword("function")
