@@ -72,6 +72,12 @@ def test_the_guide_to_training_runs_as_written(tmp_path):
         runpy.run_path(str(script))
 
 
+def test_the_guide_to_agents_runs_as_written(tmp_path):
+    script = tmp_path / "agents.py"
+    script.write_text("\n".join(blocks("docs/guides/agents-without-code.md", "python")))
+    runpy.run_path(str(script))
+
+
 def test_one_version_number():
     import json
     import tomllib

@@ -122,6 +122,8 @@ def list_() -> None:
         is_in_gallery = name in gallery.files()
         summary = gallery.description(name) if is_in_gallery else f"plant of a world, {path}"
         print(f"{name:21} Model: {summary}")
+    for name in gallery.animations():
+        print(f"{name:21} Animation: {gallery.description(name)}")
 
 
 @command("run", "bioscope run reef --seconds 60 --seed 7 --events reef.jsonl --hash")
@@ -364,11 +366,21 @@ def grow(
 ) -> None:
     """Grow a plant and write its shape, or with .mp4 a film of its growth.
 
-    MODEL is a file (bush.l, ./bush) or, without folder and ending, a name from `bioscope list`.
+    MODEL is a file (bush.l, ./bush) or, without folder and ending, a name from `bioscope list`. A
+    definition file that runs (.lm) is filmed, or shown in a .png, before its own camera.
     """
     from bioscope.populations.plants import model_path
 
     path = model_path(model)
+    if path.suffix == ".lm":
+        from bioscope.film import parse_size
+        from bioscope.lsystem.showing import show_animation
+
+        if steps is not None or any(files.values()):
+            raise click.UsageError("--steps, --view, --environment, --colors: for plants alone")
+        pixels = parse_size(size)
+        show_animation(path, output, seconds=seconds, size=pixels, seed=seed, say=say)
+        return
     if output.suffix == ".mp4":
         from bioscope.film import parse_size
         from bioscope.lsystem.growth import film_growth

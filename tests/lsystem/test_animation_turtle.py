@@ -279,7 +279,7 @@ def test_named_materials():
     assert not second.lit
     assert second.diffuse == MATERIALS[4].diffuse
     # They reach a scene, one mesh per material.
-    assert [material.name for material, _ in made.frame.meshes()] == ["red", "red"]
+    assert [material.name for material, _, _ in made.frame.meshes()] == ["red", "red"]
 
 
 @pytest.mark.capability("NA-076")

@@ -1,7 +1,8 @@
 """The gallery: ready-made L-system models, each with a line, a source and parameters.
 
 A model is a text, `NAME.l` in the dialect of cpfg or `NAME.lsys` in the notation of our own, with
-its colors in `NAME.colors`. Its first comment says what it is; see docs/concepts/gallery.md.
+its colors in `NAME.colors`. Its first comment says what it is; see docs/concepts/gallery.md. Beside
+them are animations, definition files `NAME.lm` that run.
 """
 
 from __future__ import annotations
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
 __all__ = [
     "Model",
     "Parameter",
+    "animations",
     "description",
     "files",
     "model",
@@ -91,6 +93,12 @@ def files() -> dict[str, Path]:
     return {one.stem: one for one in sorted(texts)}
 
 
+@cache
+def animations() -> dict[str, Path]:
+    """Return the definition files of all animations by name, in alphabetical order."""
+    return {one.stem: one for one in sorted(_FOLDER.glob("*.lm"))}
+
+
 def names() -> list[str]:
     """Return the names of all models, in alphabetical order."""
     return list(files())
@@ -110,8 +118,12 @@ def path(name: str) -> Path:
 
 
 def description(name: str) -> str:
-    """Return what a model is, in one line."""
-    return model(name).description
+    """Return what a model or an animation is, in one line."""
+    if name not in animations():
+        return model(name).description
+    comment = _COMMENT.match(animations()[name].read_text(encoding="utf-8"))
+    head = comment[1].partition("\n\n")[0] if comment is not None else ""
+    return " ".join(head.split()).partition(": ")[2].rstrip(".")
 
 
 def parameters(name: str) -> tuple[Parameter, ...]:

@@ -43,10 +43,18 @@ def inspection(world: World, selection: Select) -> bytes:
             retina=None,
         )
     eye = found.pop("eye")
-    retina = (
-        None if eye is None else _retina(world.scene, _looking(found, eye, selection), selection)
-    )
+    retina = None
+    if eye is not None:
+        # The eye of an actor is within its body, which it does not see.
+        scene = world.scene if eye.fisheye else _without(world.scene, individual)
+        retina = _retina(scene, _looking(found, eye, selection), selection)
     return encode("inspection", tick=tick, time=time, **found, retina=retina)
+
+
+def _without(scene: Scene, individual: int) -> Scene:
+    from bioscope._engine import Publication
+
+    return Publication().scene(scene, without=[individual])
 
 
 def _looking(found: dict[str, Any], eye: Camera, selection: Select) -> list[Camera]:

@@ -256,7 +256,7 @@ def model_path(model: str) -> Path:
     """
     if Path(model).suffix or len(Path(model).parts) > 1:
         return Path(model)
-    known = models()
+    known = models() | gallery.animations()
     if model not in known:
         names = ", ".join(known)
         raise UnknownNameError(

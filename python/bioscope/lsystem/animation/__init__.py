@@ -15,6 +15,7 @@ from bioscope.lsystem.animation.automata import Actor, Behavior, read_behavior
 from bioscope.lsystem.animation.frame import Directive, Frame, Line, Piece
 from bioscope.lsystem.animation.materials import MATERIALS, Material
 from bioscope.lsystem.animation.meshes import Part
+from bioscope.lsystem.animation.sight import Surroundings
 from bioscope.lsystem.animation.viewing import Camera, Device
 from bioscope.lsystem.animation.window import Code, Window
 
@@ -33,6 +34,7 @@ __all__ = [
     "Part",
     "Piece",
     "Source",
+    "Surroundings",
     "Window",
     "read_behavior",
 ]

@@ -55,7 +55,7 @@ COMMANDS = {
 """By command the kinds of its arguments: whole numbers, numbers, words."""
 
 EVER = math.inf
-LIMITS = {
+LIMITS: dict[str, list[tuple[float, float]]] = {
     "fov": [(1, 1790)],
     "vision_range": [(1e-6, EVER), (1e-6, EVER), (0, EVER)],
     "size_actor": [(0, EVER)],
@@ -263,7 +263,7 @@ def read_behavior(text: str, place: str, places: Sequence[str] = ()) -> Behavior
         if len(given) < len(kinds):
             message = f"'{name}' has {len(kinds)} arguments, found {len(given)}"
             raise FormatError(f"{where[at]}: {message}")
-        made = []
+        made: list[Argument] = []
         for index, (kind, word) in enumerate(zip(kinds, given, strict=True)):
             value = _argument(kind, word, name, where[at + 1 + index])
             _check(name, index, value, where[at + 1 + index])

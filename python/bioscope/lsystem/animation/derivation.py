@@ -20,6 +20,7 @@ from bioscope.lsystem.animation.vectors import ZERO, Vector
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
+    from bioscope.lsystem.animation.frame import Piece
     from bioscope.lsystem.animation.machine import Compiler
     from bioscope.lsystem.animation.scope import Stage
     from bioscope.lsystem.definition.grammar import Definition, Expression, Rule, Template
@@ -62,6 +63,8 @@ class Instance:
     sensed: tuple[int, Particle | None] = (0, None)
     """The actor and the particle that were current when it was last drawn."""
     shown: bool = False
+    drawn: dict[int, tuple[tuple[object, ...], Piece]] | None = None
+    """What it showed last where its string was drawn, and of what that was made."""
 
     def mode(self, number: int) -> int:
         """Return parameter 1 to 3 as a whole number, which selects what some symbols do."""

@@ -150,6 +150,13 @@ def tube(pose: Pose, ahead: float, thick: tuple[float, float], sides: int) -> Sh
     return revolved(pose, [(0.0, *radii), (ahead, *radii)], sides, closed=False)
 
 
+def placed(shape: Shape, pose: Pose, size: Vector) -> Shape:
+    """Return a shape in the frame of a pose, scaled along its axes."""
+    corners, faces = shape
+    a, b, c = size
+    return [pose.point(x * a, y * b, z * c) for x, y, z in corners], faces
+
+
 def normal_of(corners: Sequence[Vector]) -> Vector | None:
     """Return the normal of a polygon that need not be flat (Newell); None if it has no area."""
     total = (0.0, 0.0, 0.0)
@@ -206,6 +213,8 @@ def extruded(
 
 def triangles(corners: Sequence[Vector], face: Face) -> list[tuple[int, int, int]]:
     """Return a face as triangles; ears are cut off, so that it may be concave."""
+    if len(face) == LEAST_SIDES:
+        return [(face[0], face[1], face[2])]
     rest = list(face)
     normal = normal_of([corners[one] for one in face])
     if len(rest) < LEAST_SIDES:

@@ -105,6 +105,8 @@ class Eyes:
         actors
             Where they are, and what interests them.
         """
+        for index, window in self.windows.items():
+            window.camera = eye_of(actors[index])
         if 0 < number <= len(self.kept):
             rows = zip(self.windows, self.kept[number - 1], strict=True)
             self.sightings = {actor: Sighting.of(row.tolist()) for actor, row in rows}
@@ -146,15 +148,6 @@ class Eyes:
 
     def _show(self, window: Window, actor: Actor, scene: Scene, parts: Sequence[Part]) -> None:
         """Fill a window with what its actor sees."""
-        near, far = actor.vision_range
-        window.camera = Camera(
-            actor.position,
-            add(actor.position, actor.heading),
-            angle=actor.angle,
-            aspect=1.0,
-            near=near,
-            far=far,
-        )
         scale = self.surroundings.scale if self.surroundings else 1.0
         (seen,) = self._rasterizer.look(scene, [self.camera(window)], window.edge, window.edge)
         color, depth, ids = seen
@@ -215,6 +208,13 @@ class Eyes:
             "color_of_interest_as_goal": go_for,
             "at_goal": lambda number: said(actor(number).is_at_goal),
         }
+
+
+def eye_of(actor: Actor) -> Camera:
+    """Return the eye of an actor: its window is square, its left horizontal."""
+    near, far = actor.vision_range
+    target = add(actor.position, actor.heading)
+    return Camera(actor.position, target, actor.angle, 1.0, near=near, far=far)
 
 
 def sighted(window: Window, actor: Actor) -> Sighting:

@@ -9,7 +9,7 @@ first place.
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from bioscope.lsystem.animation import shapes
 from bioscope.lsystem.animation.directives import directive
@@ -97,11 +97,19 @@ class Walk:
             force = add(force, self.tropism.growth)
         self.pose = self.pose.bent(force, self.rigidity)
 
-    def draw(self, one: Instance, shape: Shape, *, smooth: bool = False) -> None:
-        """Add a shape of the current material."""
-        corners, faces = shape
-        piece = Piece(one.symbol, corners, faces, self.material, smooth, self.body)
-        self.animation.frame.items.append(piece)
+    def draw(
+        self, one: Instance, make: Callable[..., Shape], *given: Any, smooth: bool = False
+    ) -> None:
+        """Add a shape of the current material; the same piece as before if nothing has changed."""
+        key = make, given, self.material, self.body
+        if one.drawn is None:
+            one.drawn = {}
+        before = one.drawn.get(self.repetition)
+        if before is None or before[0] != key:
+            corners, faces = make(*given)
+            piece = Piece(one.symbol, corners, faces, self.material, smooth, self.body)
+            before = one.drawn[self.repetition] = key, piece
+        self.animation.frame.items.append(before[1])
 
     def size(self, one: Instance) -> Vector:
         """Return the growth values as lengths at this place."""
@@ -176,31 +184,29 @@ class Walk:
     # Shapes.
 
     def _cube(self, one: Instance) -> None:
-        self.draw(one, shapes.box(self.pose, self.size(one)))
+        self.draw(one, shapes.box, self.pose, self.size(one))
         self.advance(self.size(one)[0])
 
     def _pyramid(self, one: Instance) -> None:
-        self.draw(one, shapes.pyramid(self.pose, self.size(one)))
+        self.draw(one, shapes.pyramid, self.pose, self.size(one))
         self.advance(self.size(one)[0])
 
     def _ball(self, one: Instance) -> None:
         a, b, c = self.size(one)
         size = (a, b, c) if one.symbol == "s" else (a, a, a)
-        self.draw(one, shapes.ellipsoid(self.pose, size, self.sides), smooth=True)
+        self.draw(one, shapes.ellipsoid, self.pose, size, self.sides, smooth=True)
 
     def _capsule(self, one: Instance) -> None:
         a, b, c = self.size(one)
-        made = (
-            shapes.tube(self.pose, a, (b, c), self.sides)
-            if one.symbol == "o"
-            else shapes.trunk(self.pose, a, (b, c), (b, c), self.sides)
-        )
-        self.draw(one, made, smooth=True)
+        if one.symbol == "o":
+            self.draw(one, shapes.tube, self.pose, a, (b, c), self.sides, smooth=True)
+        else:
+            self.draw(one, shapes.trunk, self.pose, a, (b, c), (b, c), self.sides, smooth=True)
         self.advance(a)
 
     def _trunk(self, one: Instance) -> None:
         a, b, c = self.size(one)
-        self.draw(one, shapes.trunk(self.pose, a, (b, b), (c, c), self.sides), smooth=True)
+        self.draw(one, shapes.trunk, self.pose, a, (b, b), (c, c), self.sides, smooth=True)
         self.advance(a)
 
     def _line(self, one: Instance) -> None:
@@ -226,18 +232,16 @@ class Walk:
             closing=one.mode(3),
             distance=self.size(one)[0],
         )
-        for shape in made:
-            self.draw(one, shape)
+        for corners, faces in made:
+            piece = Piece(one.symbol, corners, faces, self.material, body=self.body)
+            self.animation.frame.items.append(piece)
 
     def _imported(self, one: Instance) -> None:
         surface = self._layer_surfaces().get(one.mode(1))
         if surface is None:
             self.animation.remark(f"surface {one.mode(1)} of 'B' is not declared")
             return
-        a, b, c = self.size(one)
-        corners, faces = surface
-        placed = [self.pose.point(x * a, y * b, z * c) for x, y, z in corners]
-        self.draw(one, (placed, faces))
+        self.draw(one, shapes.placed, surface, self.pose, self.size(one))
 
     def _layer_surfaces(self) -> dict[int, Shape]:
         return self.animation.surfaces[self.layer.layer]
@@ -347,11 +351,11 @@ class Walk:
         if animation.offline and words is not None:
             frame.items.append(Directive(words))
         elif mode == 2:
-            self.draw(one, shapes.square(GROUND, (0.0, one.growth[0], 0.0)))
+            self.draw(one, shapes.square, GROUND, (0.0, one.growth[0], 0.0))
         elif mode == 3:
             x, _, z = self.pose.position
             edge, height, _ = one.growth
-            self.draw(one, shapes.square(edge, (x, height, z)))
+            self.draw(one, shapes.square, edge, (x, height, z))
         elif mode == 20:
             animation.captured = len(frame.items)
         elif mode == 21:
