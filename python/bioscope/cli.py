@@ -396,6 +396,47 @@ def grow(
     say(f"{output}: {len(mesh.triangles)} triangles")
 
 
+@app.group("new", no_args_is_help=True)
+def new() -> None:
+    """Begin something of your own."""
+
+
+@new.command("species", epilog="Example: bioscope new species snowdrop")
+@click.argument("name")
+@path_option("--folder", metavar="DIR", default=Path(), help="Where the new folder shall be.")
+def new_species(name: str, folder: Path) -> None:
+    """Begin a plant species: a commented model, its colors, and a place for photographs."""
+    from bioscope.lsystem.species import begin
+
+    for path in begin(name, folder):
+        say(path)
+    say(f"Next: read {folder / name / 'README.md'}, or bioscope edit {folder / name / name}.lsys")
+
+
+@command("compare", "bioscope compare snowdrop -o sheet.png")
+@click.argument("folder", type=click.Path(path_type=Path))
+@path_option("-o", "--output", metavar="FILE.png", help="Show where the outlines differ.")
+@click.option("--seed", type=click.IntRange(0, 2**64 - 1), default=1, help="Seed of the plant.")
+def compare(folder: Path, output: Path | None, seed: int) -> None:
+    """Say how well a species meets its photographs, one line per age.
+
+    FOLDER is one as `bioscope new species` writes it. The number is the overlap of the outlines
+    (intersection over union), 1 where they are the same.
+    """
+    from bioscope import _engine
+    from bioscope.files import written_whole
+    from bioscope.lsystem.species import compare as compare_species
+    from bioscope.lsystem.species import sheet
+
+    matches = compare_species(folder, seed)
+    for match in matches:
+        print(f"{match.age}\t{match.overlap:.3f}")
+    if output is not None:
+        with written_whole(output) as temporary:
+            temporary.write_bytes(_engine.encode_png(sheet(matches)))
+        say(f"{output}: dark where they agree, blue the plant alone, red the photograph alone")
+
+
 @command("edit", "bioscope edit kelp.l")
 @click.argument("file", metavar="[FILE|NAME]", required=False)
 @click.option(

@@ -9,7 +9,9 @@ all of them and answers by changing their numbers.
 'F(1)F(1)A?E(1)'
 """
 
-from bioscope.environments.environment import Environment, derive, names, read, rebuild
+from bioscope.environments.amounts import Amounts
+from bioscope.environments.crowns import Crowns
+from bioscope.environments.environment import Environment, derive, named, names, read, rebuild
 from bioscope.environments.kinds import (
     Collision,
     Community,
@@ -28,8 +30,10 @@ from bioscope.environments.kinds import (
 )
 
 __all__ = [
+    "Amounts",
     "Collision",
     "Community",
+    "Crowns",
     "Environment",
     "Field",
     "LeafBalls",
@@ -44,6 +48,7 @@ __all__ = [
     "SkyLight",
     "SoilWater",
     "derive",
+    "named",
     "names",
     "read",
     "rebuild",

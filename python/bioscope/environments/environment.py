@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 
 from bioscope import _engine
+from bioscope.environments.amounts import Amounts
 from bioscope.errors import InvalidValueError, UnknownNameError
 from bioscope.lsystem.lsystem import LSystem, ModuleString
 from bioscope.world import state
@@ -95,6 +96,15 @@ class Environment:
             self._inner = _engine.Environment.python(self)
         return self._inner
 
+    @property
+    def amounts(self) -> Amounts | None:
+        """What it keeps in its cells now, as `SoilWater` does water; None if it keeps nothing."""
+        kept = self.engine.amounts()
+        if kept is None:
+            return None
+        (columns, rows, layers), low, cell, values = kept
+        return Amounts(values.reshape(layers, rows, columns), low, cell)
+
     def ask(
         self,
         parameters: ArrayLike,
@@ -148,14 +158,15 @@ def _told(value: object) -> str:
     return " ".join(repr(float(one)) for one in np.atleast_1d(np.asarray(value)).ravel())
 
 
-class _Read(Environment):
-    def __init__(self, path: str | PathLike[str]) -> None:
-        self._inner = _engine.Environment.read(path)
+class _Made(Environment):
+    def __init__(self, engine: _engine.Environment) -> None:
+        self._inner = engine
 
     def asked(self) -> dict[str, Any]:
         raise InvalidValueError(
-            "an environment file: a saved world would need it again; plants of a world live in "
-            "environments of the engine, in your own and at the end of pipes"
+            "an environment read from a file or from words: a saved world would need them again; "
+            "plants of a world live in environments of the engine, in your own and at the end of "
+            "pipes"
         )
 
 
@@ -169,7 +180,20 @@ def read(path: str | PathLike[str]) -> Environment:
     FormatError
         If the file cannot be read, or names a program that is not built in.
     """
-    return _Read(path)
+    return _Made(_engine.Environment.read(path))
+
+
+def named(words: str) -> Environment:
+    """Return an environment by name and parameters, as a model asks for it: "soil_water D=0.1".
+
+    A name that ends in `.e` is an environment file, see `read`.
+
+    Raises
+    ------
+    FormatError
+        If there is no such environment, or its parameters make no sense.
+    """
+    return _Made(_engine.Environment.named(words))
 
 
 def names() -> list[str]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from bioscope.lsystem.attributes import Attributes
 from bioscope.lsystem.equilibrium import Equilibrium, equilibrium
 from bioscope.lsystem.figures import Figure, Generator
 from bioscope.lsystem.lsystem import Fragment, LSystem, ModuleString
@@ -27,6 +28,7 @@ if TYPE_CHECKING:
 __all__ = [
     "AnimateFile",
     "Animation",
+    "Attributes",
     "Balls",
     "Discs",
     "Equilibrium",

@@ -214,6 +214,11 @@ class ModuleString:
         return self._engine.symbols
 
     @property
+    def arities(self) -> NDArray[np.uint8]:
+        """How many numbers a module of each kind of the alphabet has."""
+        return self._engine.arities
+
+    @property
     def kinds(self) -> NDArray[np.uint8]:
         """Symbol number of each module (n,)."""
         return self._engine.kinds

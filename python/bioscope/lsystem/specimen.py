@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from bioscope import _engine
+from bioscope.environments import Amounts, named
 from bioscope.errors import FormatError, InvalidValueError
 from bioscope.files import written_whole
 from bioscope.lsystem.lsystem import LSystem
@@ -18,13 +19,20 @@ from bioscope.world import Population, World
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from bioscope._engine import Mesh, Publication
+    from bioscope._engine import Material, Mesh, Publication
+    from bioscope.environments import Environment
 
 SUFFIXES = (".glb", ".obj", ".usdc", ".usda", ".png")
 VIEW_DEGREES = 30.0
 VIEW_ANGLE = math.radians(VIEW_DEGREES)
 VIEW_LIMITS = (16, 4096)
 FLOOR = (0.50, 0.48, 0.44)
+LEVELS = (0.45, 0.8)
+"""Amounts whose surfaces are seen, as shares of the way from the least to the greatest."""
+WATER = (0.06, 0.30, 0.85)
+"""Linear color of the surface of the greatest amount; those of less are darker."""
+VEIL = 0.3
+"""How much of what is behind such a surface it hides."""
 HAZELESS = 20.0
 """Size in metres from which haze would hide what is far away."""
 
@@ -53,11 +61,15 @@ def grow(path: Path, output: Path, steps: int | None, seed: int | None, **files:
     if output.suffix not in SUFFIXES:
         known = ", ".join((*SUFFIXES, ".mp4"))
         raise InvalidValueError(f"{output}: expected a name that ends in {known}")
-    mesh = shape(path, LSystem.read(path), steps, seed, **files)
+    system = LSystem.read(path)
+    around = surroundings(system, files.pop("environment", None))
+    mesh = shape(path, system, steps, seed, environment=around, **files)
     if output.suffix == ".obj":
         _write_obj(output, mesh)
     elif output.suffix == ".png":
-        _write_picture(output, mesh)
+        with written_whole(output) as temporary:
+            pixels = portrait(mesh, 960, 960, around=around)
+            temporary.write_bytes(_engine.encode_png(pixels))
     else:
         from bioscope.export import export_world
 
@@ -67,6 +79,17 @@ def grow(path: Path, output: Path, steps: int | None, seed: int | None, **files:
     return mesh
 
 
+def surroundings(system: LSystem, asked: str | None = None) -> Environment | None:
+    """Return the environment that is asked for, or else that of the model; None without one.
+
+    Environment files of a model are left to the derivation, which finds them in the model's folder.
+    """
+    words = system.environment if asked is None else asked
+    if not words or (asked is None and words.strip().endswith(".e")):
+        return None
+    return named(words)
+
+
 def shape(
     path: Path,
     system: LSystem,
@@ -74,7 +97,7 @@ def shape(
     seed: int | None,
     *,
     view: Path | None = None,
-    environment: str | None = None,
+    environment: Environment | str | None = None,
     colors: Path | None = None,
 ) -> Mesh:
     """Return the mesh of a plant after so many steps; for the files see `grow`.
@@ -118,11 +141,14 @@ class Specimen(Population):
 
     transient = ("mesh", "material")
 
-    def __init__(self, mesh: Mesh, title: str, scale: float = 1.0) -> None:
+    def __init__(
+        self, mesh: Mesh, title: str, scale: float = 1.0, material: Material | None = None
+    ) -> None:
         self.title = title
         self.scale = scale
         self.mesh = mesh
-        self.material = _engine.Material(title, color=(1.0, 1.0, 1.0), two_sided=True)
+        white = _engine.Material(title, color=(1.0, 1.0, 1.0), two_sided=True)
+        self.material = white if material is None else material
         self.ids = np.empty(0, np.uint32)
 
     def settle(self) -> int:
@@ -150,7 +176,14 @@ def _write_obj(output: Path, mesh: Mesh) -> None:
         temporary.write_text("\n".join(lines) + "\n", encoding="utf-8")
 
 
-def portrait(mesh: Mesh, width: int, height: int, *, full: Mesh | None = None) -> NDArray[np.uint8]:
+def portrait(
+    mesh: Mesh,
+    width: int,
+    height: int,
+    *,
+    full: Mesh | None = None,
+    around: Environment | None = None,
+) -> NDArray[np.uint8]:
     """Return a picture (height, width, 3) of a plant that stands on level ground.
 
     Parameters
@@ -162,6 +195,9 @@ def portrait(mesh: Mesh, width: int, height: int, *, full: Mesh | None = None) -
     full
         What the picture has room for; the plant itself if not given. Stages of one plant that are
         to be compared share the last one.
+    around
+        What surrounds the plant: the amounts that it keeps in its cells (water in the soil) are
+        seen, in a deep field as surfaces that one looks through.
     """
     if not (VIEW_LIMITS[0] <= min(width, height) and max(width, height) <= VIEW_LIMITS[1]):
         raise InvalidValueError(f"{width}x{height}: expected {VIEW_LIMITS[0]} to {VIEW_LIMITS[1]}")
@@ -173,9 +209,31 @@ def portrait(mesh: Mesh, width: int, height: int, *, full: Mesh | None = None) -
     low, high = points.min(axis=0), points.max(axis=0)
     world = World(seed=1, title="specimen")
     world.add(Specimen(mesh, "specimen", scale))
+    for number, (field, material) in enumerate(fields):
+        world.add(Specimen(field, f"field {number}", scale, material))
     world.add(Specimen(floor((low + high) / 2, float(low[1]), size), "floor"))
     view = _engine.Camera.looking_at(*camera(points, width / height), VIEW_ANGLE)
     return _engine.Rasterizer(picture=True).picture(world.scene, view, width, height)
+
+
+def _fields(around: Environment | None) -> list[tuple[Mesh, Material]]:
+    """Return what is seen of the amounts that an environment keeps, from least to most."""
+    amounts = None if around is None else around.amounts
+    if amounts is None or not amounts.values.size:
+        return []
+    least, most = float(amounts.values.min()), float(amounts.values.max())
+    if not most > least:
+        return []
+    if not amounts.deep:
+        matt = _engine.Material("field", color=(1.0, 1.0, 1.0), roughness=1.0, two_sided=True)
+        above = Amounts(amounts.values - np.float32(least), amounts.low, amounts.cell)
+        return [(above.sheet(most - least), matt)]
+    fields = []
+    for share in LEVELS:
+        color = tuple((0.25 + 0.75 * share) * part for part in WATER)
+        veil = _engine.Material("field", color=color, opacity=VEIL, roughness=0.35, two_sided=True)
+        fields.append((amounts.surface(least + share * (most - least)), veil))
+    return fields
 
 
 Place = tuple[float, float, float]
@@ -228,8 +286,3 @@ def floor(middle: NDArray[np.float32], level: float, size: float) -> Mesh:
     normals = np.tile(np.array([0, 1, 0], np.float32), (len(positions), 1))
     faces = np.array(triangles, np.uint32)
     return _engine.Mesh(positions, faces, normals=normals, colors=colors)
-
-
-def _write_picture(output: Path, mesh: Mesh) -> None:
-    with written_whole(output) as temporary:
-        temporary.write_bytes(_engine.encode_png(portrait(mesh, 960, 960)))

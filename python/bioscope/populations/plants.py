@@ -88,6 +88,10 @@ class Plants(Asked):
     unfold
         Whether plants turn into what a step makes of them while it lasts, rather than at once: for
         models of few large steps.
+    levels
+        Amounts of what the environment keeps (water in the soil) that are seen: of a deep field
+        the surfaces of these amounts, through which one looks; a flat one is painted behind the
+        plants, from black for nothing to blue for the greatest of them.
     colors
         A file of colours; the one beside the model if not given.
     **parameters
@@ -137,6 +141,7 @@ class Plants(Asked):
         lying: bool | None = None,
         turned: bool | None = None,
         unfold: bool | None = None,
+        levels: Sequence[float] | None = None,
         colors: str | Path | None = None,
         **parameters: float,
     ) -> None:
@@ -163,6 +168,7 @@ class Plants(Asked):
             "lying": lying,
             "turned": turned,
             "unfold": unfold,
+            "levels": levels and [float(level) for level in levels],
         }
         if rate is None:
             said = [key for key, value in growing.items() if value is not None]

@@ -12,7 +12,7 @@ const CORNERS = 64;
 
 /** What plant and ground are made of. */
 export function materials(): MaterialMessage[] {
-  const common = { type: "material" as const, texture: null, cutout: false, two_sided: true };
+  const common = { type: "material" as const, texture: null, cutout: false, opacity: 1, two_sided: true };
   return [
     {
       ...common,

@@ -88,6 +88,7 @@ export interface MaterialMessage {
   roughness: number;
   specular: number;
   translucency: number;
+  opacity: number;
   two_sided: boolean;
 }
 

@@ -51,6 +51,8 @@ export class Batch {
   private newer: Moment;
   private readonly uniforms: BatchUniforms;
   private readonly slotsById = new Map<number, number>();
+  /** Whether one sees through it; then it throws no shadow. */
+  private readonly veils: boolean;
 
   constructor(
     readonly number: number,
@@ -61,6 +63,7 @@ export class Batch {
   ) {
     const material = assets.material(layout.material);
     if (!material) throw new Error(`the material of ${layout.name} is missing`);
+    this.veils = material.opacity < 1;
     this.uniforms = createBatchUniforms(number, material.color);
     this.uniforms.uPicture.value = assets.texture(material.texture);
     this.older = this.laidOut();
@@ -155,7 +158,8 @@ export class Batch {
   /** Chooses what throws shadows into a part of the world. */
   cullShadows(frustum: Frustum): void {
     this.shadow.begin();
-    for (let slot = 0; slot < this.layout.count; slot++) {
+    const count = this.veils ? 0 : this.layout.count;
+    for (let slot = 0; slot < count; slot++) {
       this.boundAt(this.newer.places, slot);
       if (frustum.intersectsSphere(sphere)) this.shadow.put(slot, this.placeOf(slot), undefined);
     }

@@ -68,6 +68,7 @@ uniform sampler2D uPicture;
 uniform float uRoughness;
 uniform float uSpecular;
 uniform float uTranslucency;
+uniform float uOpacity;
 uniform int uBatch;
 uniform vec3 uEye;
 layout(location = 0) out vec4 outColor;
@@ -97,7 +98,7 @@ void main() {
   float depth = depthOf(vPlace.y);
   vec3 sunlight = sunlightAt(depth) * causticAt(vPlace, depth) * sunlit(vPlace, normal);
   vec3 light = reflected(finish, sunlight, depth, normal, normalize(uEye - vPlace));
-  outColor = vec4(arriving(light, uEye, vPlace), 1.0);
+  outColor = vec4(arriving(light, uEye, vPlace), uOpacity);
 }
 `,
   shadow: /* glsl */ `
@@ -136,9 +137,13 @@ export function createSurfaceMaterial(
     uRoughness: { value: material.roughness },
     uSpecular: { value: material.specular },
     uTranslucency: { value: material.translucency },
+    uOpacity: { value: material.opacity },
   };
+  const veils = purpose === "look" && material.opacity < 1;
   return new ShaderMaterial({
     glslVersion: GLSL3,
+    transparent: veils,
+    depthWrite: !veils,
     defines,
     uniforms: { ...shared, ...uniforms, ...own },
     vertexShader: VERTEX,

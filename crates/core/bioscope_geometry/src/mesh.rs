@@ -6,10 +6,13 @@ use bioscope_core::Vec3;
 
 use crate::{Key, Transform};
 
+mod iso_surface;
 pub(crate) mod levels;
 mod simplify;
 mod sparse;
 pub(crate) mod tiles;
+
+pub use iso_surface::iso_surface;
 
 /// A triangle mesh in its own space, shared by all its instances; never changed once published
 /// (a deforming body publishes a new mesh).

@@ -206,6 +206,9 @@ pub struct Material {
     pub specular: f32,
     /// Share of light that comes through from behind (leaves, fins).
     pub translucency: f32,
+    /// Share of what is behind that it hides: 1 solid, less a veil (the surface of a field, glass). A veil
+    /// throws no shadow, and who looks through it knows only what is behind.
+    pub opacity: f32,
     /// Whether the inside shows too.
     pub two_sided: bool,
 }
@@ -221,6 +224,7 @@ impl Default for Material {
             roughness: 0.8,
             specular: 0.04,
             translucency: 0.0,
+            opacity: 1.0,
             two_sided: false,
         }
     }

@@ -9,6 +9,7 @@
 //! Source: R. Měch and P. Prusinkiewicz, "Visual models of plants interacting with their
 //! environment", SIGGRAPH 1996, section 4.
 
+mod amounts;
 mod cells;
 mod collision;
 mod guides;
@@ -25,6 +26,7 @@ mod takenaka;
 
 use bioscope_core::Vec3;
 
+pub use amounts::Amounts;
 pub use collision::{Collision, Competition};
 pub use guides::{Obstacles, Pole, Pruning, Shape};
 pub use letters::{Letter, Mailbox};
@@ -134,6 +136,11 @@ pub trait Environment: Send {
     /// told of again, or they throw no shade.
     fn forgets(&self) -> bool {
         false
+    }
+
+    /// What can be seen of it: the amounts of something in the cells of a box, where it keeps such.
+    fn amounts(&self) -> Option<Amounts> {
+        None
     }
 
     /// Goes back to what [`memory`](Self::memory) gave.

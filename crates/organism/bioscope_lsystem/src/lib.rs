@@ -29,10 +29,10 @@ pub use derivation::{
 };
 pub use diagnostic::{Diagnostic, Diagnostics, Place};
 pub use environment::{
-    Collision, Competition, Density, DensityVoxels, Environment, EnvironmentError, Following,
-    LeafBalls, Letter, LightMap, Limbs, Mailbox, Obstacles, PatchLight, Pipe, Pole, Pruning, Reply,
-    Request, Settings, ShadowVoxels, Shape, SkyLight, SoilWater, built_in, environment_names,
-    read_environment,
+    Amounts, Collision, Competition, Density, DensityVoxels, Environment, EnvironmentError,
+    Following, LeafBalls, Letter, LightMap, Limbs, Mailbox, Obstacles, PatchLight, Pipe, Pole,
+    Pruning, Reply, Request, Settings, ShadowVoxels, Shape, SkyLight, SoilWater, built_in,
+    environment_names, read_environment,
 };
 pub use files::{
     Animation, ContourShape, ContourVertex, Curve, EnvironmentFile, Function, FunctionTable,

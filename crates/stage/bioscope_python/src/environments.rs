@@ -6,13 +6,14 @@ use std::time::Duration;
 
 use bioscope_core::{Error, Vec3};
 use bioscope_lsystem::{self as lsystem, EnvironmentError, Reply, Request, Settings};
-use numpy::{IntoPyArray, PyArrayMethods, PyReadonlyArray2};
+use numpy::{IntoPyArray, PyArray1, PyArrayMethods, PyReadonlyArray2, PyReadonlyArray3};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 
 use crate::arrays::{self, Floats};
 use crate::error::{from_python, to_python};
 use crate::lsystem::{LSystem, ModuleString};
+use crate::mesh::Mesh;
 use crate::turtle::ViewFile;
 
 type Inner = Arc<Mutex<Box<dyn lsystem::Environment>>>;
@@ -39,6 +40,10 @@ impl lsystem::Environment for Shared {
 
     fn memory(&self) -> bioscope_core::Result<Vec<u8>> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner).memory()
+    }
+
+    fn amounts(&self) -> Option<lsystem::Amounts> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).amounts()
     }
 
     fn recall(&mut self, memory: &[u8]) -> bioscope_core::Result<()> {
@@ -99,6 +104,23 @@ impl Environment {
         settings.into_iter().for_each(|(name, value)| own.set(&name, value));
         let map = map.map(|map| light_map(&map, low, size));
         Ok(Self::new(lsystem::built_in(name, &own, map).map_err(refused)?))
+    }
+
+    /// An environment by name and parameters, as a model asks for it.
+    #[staticmethod]
+    fn named(words: &str) -> PyResult<Self> {
+        lsystem::DerivationOptions::environment_of(words).map(Self::new).map_err(refused)
+    }
+
+    /// Cells in x, y and z, lowest corner, width of a cell and amounts of what it keeps; none if it keeps nothing.
+    #[allow(clippy::type_complexity)] // A tuple for Python.
+    fn amounts<'py>(
+        &self,
+        py: Python<'py>,
+    ) -> Option<([usize; 3], [f32; 3], f32, Bound<'py, PyArray1<f32>>)> {
+        let amounts = self.inner.lock().unwrap_or_else(PoisonError::into_inner).amounts()?;
+        let lsystem::Amounts { cells, low, cell, values } = amounts;
+        Some((cells, low.to_array(), cell, values.into_pyarray(py)))
     }
 
     /// What an environment file (.e) describes.
@@ -165,6 +187,35 @@ impl Environment {
         outcome.map_err(refused)?;
         Ok(answers)
     }
+}
+
+fn amounts(values: &PyReadonlyArray3<'_, f32>, low: [f32; 3], cell: f32) -> lsystem::Amounts {
+    let array = values.as_array();
+    let (layers, rows, columns) = array.dim();
+    let values = array.iter().copied().collect();
+    lsystem::Amounts { cells: [columns, rows, layers], low: low.into(), cell, values }
+}
+
+/// The surface on which a deep field (z, y, x) has this amount.
+#[pyfunction]
+pub fn amounts_surface(
+    values: PyReadonlyArray3<'_, f32>,
+    low: [f32; 3],
+    cell: f32,
+    amount: f32,
+) -> Mesh {
+    Mesh { mesh: Arc::new(amounts(&values, low, cell).surface(amount)) }
+}
+
+/// The first layer of a field (z, y, x), painted from black to blue, which is `most`.
+#[pyfunction]
+pub fn amounts_sheet(
+    values: PyReadonlyArray3<'_, f32>,
+    low: [f32; 3],
+    cell: f32,
+    most: f32,
+) -> Mesh {
+    Mesh { mesh: Arc::new(amounts(&values, low, cell).sheet(most)) }
 }
 
 /// Names of the environments that are built in.

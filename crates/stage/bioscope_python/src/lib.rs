@@ -42,7 +42,9 @@ mod _engine {
     #[pymodule_export]
     use super::camera::Camera;
     #[pymodule_export]
-    use super::environments::{Environment, derive_in, environment_names};
+    use super::environments::{
+        Environment, amounts_sheet, amounts_surface, derive_in, environment_names,
+    };
     #[pymodule_export]
     use super::field::{Field, current};
     #[pymodule_export]
@@ -62,7 +64,7 @@ mod _engine {
     #[pymodule_export]
     use super::mind::fish_with_minds;
     #[pymodule_export]
-    use super::png::encode_png;
+    use super::png::{decode_png, encode_png};
     #[pymodule_export]
     use super::population::{Resident, fish_species, resident};
     #[pymodule_export]

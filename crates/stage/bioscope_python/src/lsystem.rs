@@ -290,6 +290,13 @@ impl ModuleString {
         self.string.alphabet().kinds().iter().map(|kind| kind.symbol.to_string()).collect()
     }
 
+    /// How many parameters a module of each kind of the alphabet has.
+    #[getter]
+    fn arities<'py>(&self, py: Python<'py>) -> Array1<'py, u8> {
+        let kinds = self.string.alphabet().kinds().iter();
+        kinds.map(|kind| kind.arity).collect::<Vec<_>>().into_pyarray(py)
+    }
+
     #[getter]
     fn kinds<'py>(&self, py: Python<'py>) -> Array1<'py, u8> {
         self.string.kinds().to_vec().into_pyarray(py)

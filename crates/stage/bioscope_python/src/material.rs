@@ -18,7 +18,7 @@ impl Material {
     #[new]
     #[pyo3(signature = (
         name="matt", *, color=[0.8, 0.8, 0.8], texture=None, cutout=false, roughness=0.8,
-        specular=0.04, translucency=0.0, two_sided=false
+        specular=0.04, translucency=0.0, opacity=1.0, two_sided=false
     ))]
     #[allow(clippy::too_many_arguments)] // Keywords of a Python call.
     fn new(
@@ -29,6 +29,7 @@ impl Material {
         roughness: f32,
         specular: f32,
         translucency: f32,
+        opacity: f32,
         two_sided: bool,
     ) -> PyResult<Self> {
         let texture = texture.map(|pixels| picture(&pixels)).transpose().map_err(to_python)?;
@@ -41,6 +42,7 @@ impl Material {
                 roughness: roughness.clamp(0.0, 1.0),
                 specular: specular.clamp(0.0, 1.0),
                 translucency: translucency.clamp(0.0, 1.0),
+                opacity: opacity.clamp(0.0, 1.0),
                 two_sided,
                 ..Default::default()
             }),
@@ -81,6 +83,11 @@ impl Material {
     #[getter]
     fn translucency(&self) -> f32 {
         self.material.translucency
+    }
+
+    #[getter]
+    fn opacity(&self) -> f32 {
+        self.material.opacity
     }
 
     #[getter]

@@ -116,6 +116,7 @@ struct MaterialMessage<'a> {
     roughness: f32,
     specular: f32,
     translucency: f32,
+    opacity: f32,
     two_sided: bool,
 }
 
@@ -131,6 +132,7 @@ pub fn material(material: &Material) -> Vec<u8> {
         roughness: material.roughness,
         specular: material.specular,
         translucency: material.translucency,
+        opacity: material.opacity,
         two_sided: material.two_sided,
     })
 }

@@ -52,6 +52,14 @@ impl Tests {
 }
 
 impl Tests {
+    /// Nearness where a ray, or (column, row, 1), meets the triangle; none where it misses it.
+    #[inline(always)]
+    pub fn nearness(&self, at: Vec3) -> Option<f32> {
+        let inside = (0..3).all(|side| self.sides[side].dot(at) >= self.limits[side]);
+        let nearness = self.plane.dot(at);
+        (inside && nearness > 0.0 && nearness <= self.nearest).then_some(nearness)
+    }
+
     /// Which of four rays are inside, given their values at the sides.
     #[inline(always)]
     fn inside(&self, values: [f32x4; 3]) -> f32x4 {

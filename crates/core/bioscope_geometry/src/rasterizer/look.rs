@@ -13,6 +13,7 @@ use super::prepare::{Prepared, Thing};
 use super::shade::{Patch, Shader};
 use super::shafts::add_shafts;
 use super::spots::{Spot, spots};
+use super::veils::Veil;
 use super::view::{Strip, View};
 use crate::mesh::levels::ALLOWED;
 use crate::{Camera, Mesh};
@@ -34,9 +35,9 @@ const LEAST: f32 = 0.3;
 
 /// A thing to draw at one level of detail.
 #[derive(Clone, Copy, Debug)]
-struct Draw {
-    thing: Thing,
-    level: usize,
+pub(super) struct Draw {
+    pub thing: Thing,
+    pub level: usize,
     /// Rows of samples that it may touch.
     rows: [u32; 2],
     /// Number of its first triangle among all triangles of the look, and the number after its last.
@@ -45,14 +46,15 @@ struct Draw {
 }
 
 /// One look in the making.
-struct Look<'a> {
-    shader: Shader<'a>,
-    lens: &'a Lens,
+pub(super) struct Look<'a> {
+    pub shader: Shader<'a>,
+    pub lens: &'a Lens,
     /// Samples per pixel and direction.
-    samples: usize,
+    pub samples: usize,
     /// Nearness below which haze hides fine differences.
     haze: f32,
     draws: Vec<Draw>,
+    veils: Vec<Veil<'a>>,
     spots: Vec<Spot>,
 }
 
@@ -135,18 +137,21 @@ impl Prepared {
         let eye = Eye::new(&self.light, stand.eye);
         let shader = Shader { prepared: self, stand, eye, pitch: lens.pitch() * samples as f32 };
         let spots = spots(self, &shader, lens, samples);
-        let draws = self.draws(lens, &stand, samples);
+        let draws = self.draws(lens, &stand, samples, false);
         let haze = 1.0 / (HAZE * self.light.visibility());
-        Look { shader, lens, samples, haze, draws, spots }
+        let mut look = Look { shader, lens, samples, haze, draws, veils: Vec::new(), spots };
+        look.veils = look.veils_of(&self.draws(lens, &stand, samples, true));
+        look
     }
 
-    /// What may be seen: not outside the view, not lost in the haze, not too small.
-    fn draws(&self, lens: &Lens, stand: &Stand, samples: usize) -> Vec<Draw> {
+    /// What may be seen, of what is solid or of what one sees through: not outside the view, not lost in the
+    /// haze, not too small.
+    fn draws(&self, lens: &Lens, stand: &Stand, samples: usize, veils: bool) -> Vec<Draw> {
         let farthest = self.light.visibility().min(lens.far);
         let detail = self.options.detail / samples as f32;
         let mut draws = Vec::new();
         let mut first: u32 = 0;
-        for thing in &self.things {
+        for thing in self.things.iter().filter(|thing| self.is_veil(thing) == veils) {
             let center = stand.inward(thing.center);
             let distance = center.length();
             if distance - thing.radius > farthest {
@@ -207,6 +212,9 @@ impl Look<'_> {
         } else {
             self.color_smoothly(strip, &scratch.sheet);
         }
+        for veil in &self.veils {
+            veil.draw(self, strip);
+        }
         for spot in &self.spots {
             spot.draw(strip);
         }
@@ -255,7 +263,7 @@ impl Look<'_> {
     /// The tests of a triangle given in camera space; none if it is seen from behind (unless `both`
     /// sides show) or edge on.
     #[inline(always)]
-    fn tests(&self, [a, b, c]: [Vec3; 3], both: bool) -> Option<Tests> {
+    pub fn tests(&self, [a, b, c]: [Vec3; 3], both: bool) -> Option<Tests> {
         let normal = (b - a).cross(c - a);
         let height = normal.dot(a);
         if height == 0.0 || !height.is_finite() || (height > 0.0 && !both) {

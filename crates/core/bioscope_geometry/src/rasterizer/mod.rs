@@ -15,7 +15,7 @@
 //! | `shade` | what color is the point that a sample sees |
 //! | `light` | the formulae of light, shared with the page's shaders |
 //! | `waves` | the surface of the water and its caustics |
-//! | `shadow`, `shafts`, `spots`, `texture` | as they say |
+//! | `shadow`, `shafts`, `spots`, `texture`, `veils` | as they say |
 
 mod arithmetic;
 mod assets;
@@ -30,6 +30,7 @@ mod shadow;
 mod shafts;
 mod spots;
 mod texture;
+mod veils;
 mod view;
 mod waves;
 

@@ -140,6 +140,12 @@ impl Prepared {
         !shows(&reign.own) && reign.parent.as_ref().is_none_or(shows)
     }
 
+    /// Whether one sees through a thing.
+    #[inline(always)]
+    pub(crate) fn is_veil(&self, thing: &Thing) -> bool {
+        self.scene.batches[thing.batch as usize].material.opacity < 1.0
+    }
+
     /// Tint of a thing.
     #[inline(always)]
     pub(crate) fn tint(&self, thing: &Thing) -> Rgb {

@@ -42,9 +42,10 @@ struct Frame {
 impl Frame {
     /// Covers the box round all things that are not large.
     fn new(prepared: &Prepared) -> Option<Self> {
+        let solid = || prepared.things.iter().filter(|thing| !prepared.is_veil(thing));
         let small = |thing: &&Thing| thing.radius < LARGE;
-        let any_small = prepared.things.iter().any(|thing| small(&thing));
-        let casters = || prepared.things.iter().filter(|thing| !any_small || small(thing));
+        let any_small = solid().any(|thing| small(&thing));
+        let casters = || solid().filter(|thing| !any_small || small(thing));
         let count = casters().count() as f32;
         let mean = casters().map(|thing| thing.center).sum::<Vec3>() / count.max(1.0);
         let light = &prepared.light;
@@ -138,7 +139,7 @@ impl Shadow {
 fn band(prepared: &Prepared, frame: &Frame, rows: [usize; 2], sheet: &mut Sheet) {
     sheet.clear(SIZE, rows, f32::NEG_INFINITY);
     let mut places = Vec::new();
-    for thing in &prepared.things {
+    for thing in prepared.things.iter().filter(|thing| !prepared.is_veil(thing)) {
         let middle = frame.place(thing.center);
         let reach = thing.radius * frame.per_meter + 1.0;
         let outside = |value: f32, low: f32, high: f32| value + reach < low || value - reach > high;

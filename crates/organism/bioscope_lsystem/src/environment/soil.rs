@@ -4,7 +4,7 @@ use bioscope_core::{Error, Vec3, state};
 use glam::DVec3;
 
 use super::settings::{Settings, bounded};
-use super::{Environment, EnvironmentError, Reply, Request};
+use super::{Amounts, Environment, EnvironmentError, Reply, Request};
 
 /// Most cells of a field.
 const MOST: usize = 64 << 20;
@@ -350,6 +350,11 @@ impl Environment for SoilWater {
 
     fn memory(&self) -> bioscope_core::Result<Vec<u8>> {
         Ok(state::to_bytes(&self.water))
+    }
+
+    fn amounts(&self) -> Option<Amounts> {
+        let values = self.water.iter().map(|&amount| amount as f32).collect();
+        Some(Amounts { cells: self.cells, low: self.low, cell: self.cell, values })
     }
 
     fn recall(&mut self, memory: &[u8]) -> bioscope_core::Result<()> {

@@ -26,6 +26,7 @@
 //! | `population` | the five verbs |
 
 mod falling;
+mod field;
 mod growing;
 mod look;
 mod model;

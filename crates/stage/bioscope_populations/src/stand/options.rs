@@ -10,6 +10,8 @@ const LARGEST_COUNT: usize = 20_000;
 /// Longest text in bytes, and of all texts together.
 const LONGEST_SOURCE: usize = 1 << 20;
 const LONGEST_SOURCES: usize = 64 << 20;
+/// Most surfaces of what the surroundings keep.
+const MOST_LEVELS: usize = 8;
 /// Most steps that plants may have grown before the world begins.
 const LONGEST_START: u64 = 100_000;
 
@@ -112,6 +114,9 @@ pub struct StandOptions {
     pub clip: Vec<(String, String)>,
     /// Whether what is new in a step unfolds while it lasts: for models of few large steps.
     pub unfold: bool,
+    /// Amounts of what the surroundings keep (water in the soil) that are seen: as surfaces that one looks
+    /// through in a deep field; a flat one is painted, blue at the greatest of them. Empty shows nothing.
+    pub levels: Vec<f32>,
     /// How much their colors differ, 0 to 1.
     pub variety: f32,
     /// At most so many joints by which each bends.
@@ -147,6 +152,7 @@ impl Default for StandOptions {
             litter: String::new(),
             clip: Vec::new(),
             unfold: false,
+            levels: Vec::new(),
             variety: 0.2,
             joints: 12,
             roughness: 0.75,
@@ -197,6 +203,12 @@ impl StandOptions {
         if !(self.room.is_finite() && self.room >= 0.0 && (0.0..=1.0).contains(&self.variety)) {
             let found = format!("{} m, {}", self.room, self.variety);
             return Err(Error::value("room and variety", found, "0 m or more, 0 to 1"));
+        }
+        if self.levels.len() > MOST_LEVELS
+            || self.levels.iter().any(|&level| level.is_nan() || level <= 0.0)
+        {
+            let expected = format!("up to {MOST_LEVELS} amounts above 0");
+            return Err(Error::value("levels", format!("{:?}", self.levels), expected));
         }
         if self.origin.is_some_and(|place| !place.iter().all(|part| part.is_finite())) {
             return Err(Error::value("origin", format!("{:?}", self.origin), "a place"));

@@ -10,6 +10,7 @@ use serde::{Deserialize, Serialize};
 
 use super::StandOptions;
 use super::falling::Falling;
+use super::field::Sight;
 use super::growing::News;
 use super::look::{Form, Look};
 use super::model::{Models, environment, missing};
@@ -31,6 +32,8 @@ pub struct Stand {
     /// What is seen of each plant; none where it has changed.
     pub(super) looks: Vec<Option<Look>>,
     pub(super) shared: Shared,
+    /// What is seen of the surroundings.
+    pub(super) sights: Vec<Sight>,
 }
 
 #[derive(Clone, Serialize, Deserialize)]
@@ -48,6 +51,8 @@ pub(super) struct State {
     pub falling: Vec<Falling>,
     /// What happened in the last tick.
     pub news: Vec<News>,
+    /// Identity of what is seen of the surroundings.
+    pub surroundings: Option<Id>,
 }
 
 impl Stand {
@@ -65,7 +70,17 @@ impl Stand {
     ) -> Result<Self> {
         let space = Space { origin: Vec3::ZERO, size: options.size, lying: options.lying };
         let (plants, falling, news) = (Vec::new(), Vec::new(), Vec::new());
-        let state = State { options, space, step: 0, part: 0.0, done: 0, plants, falling, news };
+        let state = State {
+            options,
+            space,
+            step: 0,
+            part: 0.0,
+            done: 0,
+            plants,
+            falling,
+            news,
+            surroundings: None,
+        };
         Self::with(state, environment)
     }
 
@@ -84,6 +99,7 @@ impl Stand {
         }
         let mut stand = Self::with(state, own)?;
         stand.look_again()?;
+        stand.look_around();
         stand.share();
         Ok(stand)
     }
@@ -98,7 +114,7 @@ impl Stand {
         let steps = state.options.steps.unwrap_or(u64::from(own));
         let shared = shared(&state.options, &models);
         let looks = state.plants.iter().map(|_| None).collect();
-        Ok(Self { state, models, steps, environment, looks, shared })
+        Ok(Self { state, models, steps, environment, looks, shared, sights: Vec::new() })
     }
 
     fn found(&self, individual: Id) -> Option<(&Plant, Option<&Look>)> {
@@ -148,7 +164,11 @@ impl Population for Stand {
         self.exchange()?;
         self.go_on(start as f64, growth)?;
         self.state.news.clear();
+        if !self.state.options.levels.is_empty() {
+            self.state.surroundings = growth.identities(1)?.first().copied();
+        }
         self.look_again()?;
+        self.look_around();
         self.share();
         Ok(())
     }
@@ -175,8 +195,12 @@ impl Population for Stand {
         self.lose_branches(growth)?;
         self.clear_ground(growth.moment.time);
         let rate = self.state.options.parameters.rate;
+        let step = self.state.step;
         self.go_on(f64::from(rate) * f64::from(growth.moment.dt), growth)?;
         self.look_again()?;
+        if self.state.step != step {
+            self.look_around();
+        }
         self.share();
         Ok(())
     }

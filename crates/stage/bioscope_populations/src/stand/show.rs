@@ -84,6 +84,7 @@ impl Stand {
         }
         self.show_leaves(&posed, &species, publication);
         self.show_falling(&species, publication);
+        self.show_surroundings(publication);
         self.tell(publication);
     }
 

@@ -25,6 +25,11 @@ impl Space {
         if self.lying { Quat::from_xyzw(quarter, 0.0, 0.0, -quarter) } else { Quat::IDENTITY }
     }
 
+    /// From the space of the model to the world.
+    pub fn of_surroundings(&self) -> Transform {
+        Transform::new(self.origin, self.stance(), self.size)
+    }
+
     /// From the plant's own space to the world.
     pub fn of_plant(&self, position: Vec3, yaw: f32) -> Transform {
         Transform::new(position, Quat::from_rotation_y(yaw) * self.stance(), self.size)
