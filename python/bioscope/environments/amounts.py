@@ -28,7 +28,7 @@ class Amounts:
     @property
     def deep(self) -> bool:
         """Whether the field has depth."""
-        return min(self.values.shape) > 1
+        return bool(min(self.values.shape) > 1)
 
     def surface(self, amount: float) -> Mesh:
         """Return the surface on which a deep field has this amount; empty for a flat one.

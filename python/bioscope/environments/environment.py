@@ -102,8 +102,8 @@ class Environment:
         kept = self.engine.amounts()
         if kept is None:
             return None
-        (columns, rows, layers), low, cell, values = kept
-        return Amounts(values.reshape(layers, rows, columns), low, cell)
+        (columns, rows, layers), (x, y, z), cell, values = kept
+        return Amounts(values.reshape(layers, rows, columns), (x, y, z), cell)
 
     def ask(
         self,
@@ -164,7 +164,7 @@ class _Made(Environment):
 
     def asked(self) -> dict[str, Any]:
         raise InvalidValueError(
-            "an environment read from a file or from words: a saved world would need them again; "
+            "an environment file, or an environment in words: a saved world would need it again; "
             "plants of a world live in environments of the engine, in your own and at the end of "
             "pipes"
         )

@@ -209,7 +209,7 @@ def portrait(
     low, high = points.min(axis=0), points.max(axis=0)
     world = World(seed=1, title="specimen")
     world.add(Specimen(mesh, "specimen", scale))
-    for number, (field, material) in enumerate(fields):
+    for number, (field, material) in enumerate(_fields(around)):
         world.add(Specimen(field, f"field {number}", scale, material))
     world.add(Specimen(floor((low + high) / 2, float(low[1]), size), "floor"))
     view = _engine.Camera.looking_at(*camera(points, width / height), VIEW_ANGLE)

@@ -80,7 +80,9 @@ def compare(folder: Path, seed: int = 1) -> list[Match]:
         sights = silhouette_of_plant(mesh, SIDES)
         at_age = []
         for outline, row in sights:
-            size = 1.0 if height is None else len(cut_out(outline)) * row / height
+            size = 1.0
+            if height is not None and outline.any():
+                size = len(cut_out(outline)) * row / height
             at_age.append(laid_over(outline, picture, size))
         found.append(at_age)
     shares = np.array([[_share(*pair) for pair in at_age] for at_age in found])

@@ -130,8 +130,11 @@ def laid_over(plant: Mask, picture: Mask, size: float = 1.0) -> tuple[Mask, Mask
         How high the plant is beside what the picture shows.
     """
     size = min(max(size, 0.1), 10.0)
-    high = cut_out(picture), cut_out(plant)
-    one, other = _scaled(high[0], ROWS), _scaled(high[1], max(1, round(ROWS * size)))
+    one = _scaled(cut_out(picture), ROWS)
+    if not plant.any():
+        # A flat plant, seen edge on.
+        return np.zeros_like(one), one
+    other = _scaled(cut_out(plant), max(1, round(ROWS * size)))
     reach = round(SHIFT * ROWS)
     rows = max(len(one), len(other))
     half = max(one.shape[1], other.shape[1]) // 2 + reach

@@ -1,7 +1,8 @@
 """Two herbs above a cut through the soil: their roots follow the water and take it from each other.
 
-Watch for: main roots that bend towards the damp (dark) earth; side roots that wait, set out, and
-stop where the water is used up; how the two root systems divide the ground between them.
+The earth behind the pane is painted by its water, blue where there is most and black where there is
+none. Watch for: main roots that bend towards the wet; side roots that wait, set out, and stop where
+the water is used up; the black that spreads from the roots, and how the two divide the ground.
 
 Source: R. Měch and P. Prusinkiewicz, "Visual models of plants interacting with their environment",
 SIGGRAPH 1996, section 4.3, figures 9 and 10, after V. Clausnitzer and J. W. Hopmans (1994).
@@ -28,6 +29,9 @@ CELLS = (96, 64)
 
 SPRINGS = [(-34.0, -6.0, -0.5, -24.0, 4.0, 0.5, 2.5), (14.0, -22.0, -0.5, 30.0, -12.0, 0.5, 2.5)]
 """Boxes of wet earth: lowest and highest corner in cells from the middle of the soil, and water."""
+
+WETTEST = 2.5
+"""Amount of water that is painted blue; where there is none the earth is black."""
 
 STONES = [(-9.0, 4.0, -0.5, -2.0, 9.0, 0.5), (24.0, 6.0, -0.5, 31.0, 10.0, 0.5)]
 """Boxes without water."""
@@ -76,6 +80,7 @@ def herbs(*, rate: float = 10.0, start: int = 0) -> bio.Plants:
         origin=(0.0, -(0.5 * CELLS[1] - 0.5) * CELL, 0.03),
         turned=False,
         unfold=True,
+        levels=(WETTEST,),
         flexibility=0.0,
         variety=0.06,
     )
