@@ -22,10 +22,11 @@ pub(crate) struct Place {
 
 /// How deeply a search for a right context may go into branches of branches.
 const DEPTH_LIMIT: usize = 1000;
-/// How far the other bracket of a group is looked for before all groups are tabulated.
-const NEAR: usize = 64;
 
-/// The brackets of a string.
+/// How far the other bracket of a group is looked for before all groups are tabulated.
+const NEAR: usize = 8;
+
+/// The brackets of a string, tabulated as soon as a search passes a long group.
 #[derive(Default)]
 pub(crate) struct Groups {
     table: OnceLock<Table>,
@@ -122,7 +123,7 @@ impl Matcher<'_> {
                 let kind = self.string.kinds[module];
                 parameter -= self.arities[kind as usize] as usize;
                 if kind == Alphabet::CLOSE {
-                    (module, parameter) = self.group_start(module, parameter);
+                    Place { module, parameter } = self.group_start(Place { module, parameter });
                 } else if kind == Alphabet::OPEN {
                     // Climbs out of the branch.
                 } else if self.skipped[kind as usize] {
@@ -178,7 +179,7 @@ impl Matcher<'_> {
                 if self.skipped[kind as usize] {
                     place = after;
                 } else if kind == Alphabet::OPEN && pattern.kind != Alphabet::OPEN {
-                    place = self.after_group(after);
+                    place = self.group_end(place);
                 } else if kind == pattern.kind {
                     self.bind(pattern, place.parameter, slots);
                     place = after;
@@ -214,13 +215,12 @@ impl Matcher<'_> {
     /// The next module on the axis matches the first pattern, and what follows it the others.
     fn succeeds_on_axis(&mut self, patterns: &[Pattern], place: Place, slots: &mut [f64]) -> bool {
         let pattern = &patterns[0];
-        let (mut here, mut passed) = (place, Vec::new());
+        let mut here = place;
         while let Some(&kind) = self.string.kinds.get(here.module) {
             self.looked += 1;
             let after = self.after(here, kind);
             if kind == Alphabet::OPEN {
-                passed.push(after);
-                here = self.after_group(after);
+                here = self.group_end(here);
             } else if kind == Alphabet::CLOSE {
                 break;
             } else if kind == pattern.kind {
@@ -236,7 +236,31 @@ impl Matcher<'_> {
             }
         }
         self.right_context == RightContext::Tree
-            && passed.into_iter().any(|branch| self.succeeds_in_branches(patterns, branch, slots))
+            && self.succeeds_in_passed(patterns, place, here.module, slots)
+    }
+
+    /// One of the branches from `place` to module number `end` begins with what matches.
+    fn succeeds_in_passed(
+        &mut self,
+        patterns: &[Pattern],
+        mut place: Place,
+        end: usize,
+        slots: &mut [f64],
+    ) -> bool {
+        while place.module < end {
+            let kind = self.string.kinds[place.module];
+            self.looked += 1;
+            let after = self.after(place, kind);
+            if kind == Alphabet::OPEN {
+                if self.succeeds_in_branches(patterns, after, slots) {
+                    return true;
+                }
+                place = self.group_end(place);
+            } else {
+                place = after;
+            }
+        }
+        false
     }
 
     /// `[v]w`: the beginning of one of the groups that stand here matches v, what follows it w.
@@ -258,7 +282,7 @@ impl Matcher<'_> {
             self.looked += 1;
             let after = self.after(place, kind);
             if kind == Alphabet::OPEN {
-                let end = self.after_group(after);
+                let end = self.group_end(place);
                 if self.succeeds_in_branches(inside, after, slots)
                     && self.succeeds_in_branches(rest, end, slots)
                 {
@@ -283,63 +307,51 @@ impl Matcher<'_> {
     }
 
     /// The place after the bracket that closes the group that `place` is in.
-    fn after_group(&mut self, mut place: Place) -> Place {
-        let start = place;
-        let mut depth = 1;
-        let kinds = &self.string.kinds;
-        while depth > 0 && place.module < kinds.len() {
-            if place.module == start.module + NEAR {
-                return self.after_far_group(start);
-            }
-            self.looked += 1;
-            let kind = kinds[place.module];
-            depth += i32::from(kind == Alphabet::OPEN) - i32::from(kind == Alphabet::CLOSE);
-            place = self.after(place, kind);
-        }
-        place
-    }
-
-    fn after_far_group(&self, start: Place) -> Place {
-        let table = self.table();
-        let mut place = start;
-        let kinds = &self.string.kinds;
-        while place.module < kinds.len() {
-            match kinds[place.module] {
-                Alphabet::OPEN => {
-                    let group = table.group[place.module] as usize;
-                    place = table.ends[group].1;
-                    if place.module >= kinds.len() {
-                        return place;
-                    }
-                    place.module += 1;
-                }
-                Alphabet::CLOSE => {
-                    place.module += 1;
-                    return place;
-                }
+    fn after_group(&self, mut place: Place) -> Place {
+        while let Some(&kind) = self.string.kinds.get(place.module) {
+            match kind {
+                Alphabet::OPEN => place = self.group_end(place),
+                Alphabet::CLOSE => return self.after(place, kind),
                 kind => place = self.after(place, kind),
             }
         }
         place
     }
 
-    /// The bracket that opens the group whose closing bracket is `module`.
-    fn group_start(&mut self, close: usize, mut parameter: usize) -> (usize, usize) {
-        let mut module = close;
-        let mut depth = 1;
-        while depth > 0 && module > 0 {
-            if close - module == NEAR {
-                let table = self.table();
-                let open = table.ends[table.group[close] as usize].0;
-                return (open.module, open.parameter);
+    /// The place after the group whose opening bracket is at `open`.
+    #[inline]
+    fn group_end(&self, open: Place) -> Place {
+        let kinds = &self.string.kinds[open.module..];
+        let mut place = open;
+        let mut depth = 0;
+        for &kind in kinds.iter().take(NEAR) {
+            depth += i32::from(kind == Alphabet::OPEN) - i32::from(kind == Alphabet::CLOSE);
+            place = self.after(place, kind);
+            if depth == 0 {
+                return place;
             }
-            module -= 1;
-            self.looked += 1;
-            let kind = self.string.kinds[module];
-            depth += i32::from(kind == Alphabet::CLOSE) - i32::from(kind == Alphabet::OPEN);
-            parameter -= self.arities[kind as usize] as usize;
         }
-        (module, parameter)
+        let table = self.table();
+        let close = table.ends[table.group[open.module] as usize].1;
+        let module = (close.module + 1).min(self.string.kinds.len());
+        Place { module, parameter: close.parameter }
+    }
+
+    /// The place of the bracket that opens the group whose closing bracket is at `close`.
+    #[inline]
+    fn group_start(&self, close: Place) -> Place {
+        let mut place = close;
+        let mut depth = 1;
+        for &kind in self.string.kinds[..close.module].iter().rev().take(NEAR) {
+            depth += i32::from(kind == Alphabet::CLOSE) - i32::from(kind == Alphabet::OPEN);
+            place.module -= 1;
+            place.parameter -= self.arities[kind as usize] as usize;
+            if depth == 0 {
+                return place;
+            }
+        }
+        let table = self.table();
+        table.ends[table.group[close.module] as usize].0
     }
 
     fn table(&self) -> &Table {
@@ -353,6 +365,54 @@ impl Matcher<'_> {
         let values = &self.string.parameters[parameter..parameter + arity];
         for (slot, &value) in slots[slot..slot + arity].iter_mut().zip(values) {
             *slot = f64::from(value);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use proptest::prelude::*;
+
+    use super::*;
+
+    proptest! {
+        /// Near and far: the ends that are looked up are those that one counts.
+        #[test]
+        fn groups_end_where_one_counts(kinds in prop::collection::vec(0..4_u8, 0..200)) {
+            let letters = [Alphabet::OPEN, Alphabet::CLOSE, b'a', b'b'];
+            let mut string = ModuleString::new(Arc::new(Alphabet::default()));
+            string.kinds = kinds.into_iter().map(|letter| letters[letter as usize]).collect();
+            let mut arities = [0; 256];
+            arities[b'b' as usize] = 2;
+            let matcher = Matcher {
+                string: &string,
+                skipped: &[false; 256],
+                arities: &arities,
+                groups: &Groups::default(),
+                right_context: RightContext::Tree,
+                is_ring: false,
+                depth: 0,
+                looked: 0,
+                limit: u64::MAX,
+            };
+            let mut open = Vec::new();
+            let mut place = Place { module: 0, parameter: 0 };
+            for &kind in &string.kinds {
+                let after = matcher.after(place, kind);
+                if kind == Alphabet::OPEN {
+                    open.push(place);
+                } else if kind == Alphabet::CLOSE && let Some(open) = open.pop() {
+                    let (start, end) = (matcher.group_start(place), matcher.group_end(open));
+                    prop_assert_eq!((start.module, start.parameter), (open.module, open.parameter));
+                    prop_assert_eq!((end.module, end.parameter), (after.module, after.parameter));
+                }
+                place = after;
+            }
+            for open in open {
+                prop_assert_eq!(matcher.group_end(open).module, string.kinds.len());
+            }
         }
     }
 }

@@ -13,6 +13,7 @@
 mod calls;
 mod operations;
 mod output;
+mod powers;
 mod random;
 
 use std::sync::Arc;
@@ -21,6 +22,8 @@ pub(crate) use calls::Call;
 pub(crate) use operations::{Binary, Rules, Unary, binary, unary};
 pub(crate) use output::Output;
 pub(crate) use random::Randomness;
+
+use powers::Powers;
 
 use crate::Functions;
 
@@ -436,6 +439,7 @@ pub(crate) struct Machine {
     registers: Box<[f64; REGISTERS]>,
     pub pool: Arc<Pool>,
     arrays: Vec<Vec<f64>>,
+    powers: Powers,
     pub random: Randomness,
     pub output: Output,
     pub functions: Option<Arc<dyn Functions>>,
@@ -490,6 +494,7 @@ impl Machine {
             registers,
             arrays: pool.arrays.iter().map(|array| array.values.clone()).collect(),
             pool,
+            powers: Powers::default(),
             random,
             output: Output::default(),
             functions: None,
@@ -506,6 +511,7 @@ impl Machine {
             registers: self.registers.clone(),
             pool: self.pool.clone(),
             arrays: self.arrays.clone(),
+            powers: Powers::default(),
             random: self.random.clone(),
             output: Output::default(),
             functions: self.functions.clone(),
@@ -691,6 +697,10 @@ impl Machine {
 
     fn binary(&mut self, operation: Binary, to: Register, a: Register, b: Register) {
         let (a, b) = (self.get(a), self.get(b));
+        if operation == Binary::Power {
+            let power = self.powers.power(a, b);
+            return self.set(to, power);
+        }
         let value = match binary(operation, a, b, self.pool.rules) {
             Ok(value) => value,
             Err(fault) => {
