@@ -2,11 +2,14 @@
 
 import math
 
+import msgspec
 import numpy as np
 import pytest
 
 import bioscope as bio
 from bioscope.errors import FormatError
+from bioscope.live.inspection import inspection
+from bioscope.live.messages import Select
 from bioscope.lsystem import Animation
 from bioscope.lsystem.animation import MATERIALS, Code
 
@@ -360,3 +363,15 @@ def test_what_was_seen_is_part_of_the_state(tmp_path):
     assert again.state_hash() == world.state_hash()
     assert animated.animation.frame.number == 40
     assert len(animated.seen) == 40
+
+
+def test_the_inspector_shows_what_an_actor_sees(tmp_path):
+    world, animated = watched(tmp_path, position=(0, 3, 0))
+    world.step(25)
+    chosen = Select(id=int(animated.ids[1]), retina=(32, 32))
+    found = msgspec.msgpack.decode(inspection(world, chosen))
+    identity = np.frombuffer(found["retina"]["identity"], np.uint32).reshape(32, 32)
+    # The red square in the middle; nothing of the body that the eye is in.
+    assert set(np.unique(identity)) == {0, 1}
+    assert identity[16, 16] == 1
+    assert found["values"]["distance"] == pytest.approx(12 - 24 * 0.04, rel=2e-3)

@@ -9,7 +9,7 @@ import numpy as np
 
 from bioscope.lsystem.animation.materials import Material, stroke_material
 from bioscope.lsystem.animation.meshes import Meshes
-from bioscope.lsystem.animation.shapes import LEAST_SIDES, triangles, tube
+from bioscope.lsystem.animation.shapes import LEAST_SIDES, fan, triangles, tube
 from bioscope.lsystem.animation.vectors import Pose, Vector, length, subtract
 
 if TYPE_CHECKING:
@@ -34,9 +34,13 @@ class Piece:
     smooth: bool = False
     body: int | None = None
     """The actor whose body it is of."""
+    convex: bool = False
+    """Whether all its faces are known to be convex."""
 
     def triangles(self) -> list[tuple[int, int, int]]:
         """Return its faces as triangles."""
+        if self.convex:
+            return [one for face in self.faces for one in fan(face)]
         return [one for face in self.faces for one in triangles(self.corners, face)]
 
 
@@ -57,7 +61,7 @@ class Line:
         corners, faces = tube(pose, ahead, (thickness, thickness), LEAST_SIDES)
         red, green, blue = (one / 255 for one in self.color)
         material = stroke_material((red, green, blue))
-        return Piece("R", corners, faces, material, body=self.body)
+        return Piece("R", corners, faces, material, body=self.body, convex=True)
 
 
 @dataclass(frozen=True, slots=True)

@@ -211,6 +211,12 @@ def extruded(
     return [(corners + second, faces), *shapes]
 
 
+def fan(face: Face) -> list[tuple[int, int, int]]:
+    """Return a convex face as triangles, the same as `triangles` does."""
+    last = face[-1]
+    return [(last, face[at], face[at + 1]) for at in range(len(face) - 2)]
+
+
 def triangles(corners: Sequence[Vector], face: Face) -> list[tuple[int, int, int]]:
     """Return a face as triangles; ears are cut off, so that it may be concave."""
     if len(face) == LEAST_SIDES:

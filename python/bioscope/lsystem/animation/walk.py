@@ -100,14 +100,17 @@ class Walk:
     def draw(
         self, one: Instance, make: Callable[..., Shape], *given: Any, smooth: bool = False
     ) -> None:
-        """Add a shape of the current material; the same piece as before if nothing has changed."""
+        """Add a shape of convex faces of the current material.
+
+        It is the same piece as before if nothing has changed.
+        """
         key = make, given, self.material, self.body
         if one.drawn is None:
             one.drawn = {}
         before = one.drawn.get(self.repetition)
         if before is None or before[0] != key:
             corners, faces = make(*given)
-            piece = Piece(one.symbol, corners, faces, self.material, smooth, self.body)
+            piece = Piece(one.symbol, corners, faces, self.material, smooth, self.body, convex=True)
             before = one.drawn[self.repetition] = key, piece
         self.animation.frame.items.append(before[1])
 
