@@ -4,6 +4,7 @@ import math
 import random
 import re
 
+import numpy as np
 import pytest
 from mazes import Maze
 
@@ -127,6 +128,17 @@ def test_a_bee_goes_to_the_colors_it_has_in_mind():
     direct = math.dist((0, 0), RED) + math.dist(RED, YELLOW)
     direct += math.dist(YELLOW, VIOLET) + math.dist(VIOLET, RED)
     assert way < 2 * direct
+
+
+def test_the_same_is_seen_again():
+    first, second = (Animation.read(gallery.animations()["nectar"]) for _ in range(2))
+    for _ in range(60):
+        first.advance()
+        second.advance()
+        assert first.string() == second.string()
+        seen = [one.windows[0] for one in (first, second)]
+        for part in ("color", "depth", "identity"):
+            assert np.array_equal(*(getattr(one, part) for one in seen))
 
 
 def test_animations_of_the_gallery_are_shown_by_name(bioscope, tmp_path):

@@ -112,6 +112,50 @@ def test_a_window_shows_what_is_drawn_and_where():
     assert after.points()[:, 1].max() > 0.7
 
 
+@pytest.mark.capability("NA-153")
+def test_bodies_go_with_actors_and_actors_with_rules():
+    # `M` brings the turtle to the actor: its body is where it is, headed as it is.
+    axiom = f"M () (7) () () () () ()\n? {NONE}\nf () () () () (5) () ()\n? {NONE}\n"
+    made = scene(axiom, "actorNbr_automata 0 0 9 obs 2 1 3 lat 2 1 9")
+    actor = made.actors[0]
+    first, second = [one.parameters for one in made.layers[0].string if one.symbol == "?"]
+    assert (first, actor.position) == ((2, 1, 3), (2, 1, 3))
+    assert second == pytest.approx((2, 1, 8))
+    # `g` brings the actor to the turtle, 30 degrees and 2 units farther in every frame.
+    walk = f"M () (7) () () () () ()\n+ () () () () (30) () ()\nf () () () () (2) () ()\n? {NONE}\n"
+    for symbol, height in ((f"g {NONE}", 1), ("g () (2) () () (0.5) () ()", 0.5)):
+        made = scene(walk + f"{symbol}\n", "actorNbr_automata 0 0 9 obs 0 1 0 lat 1 1 0")
+        actor, angle, place = made.actors[0], 60.0, None
+        for _ in range(12):
+            made.advance()
+            angle += 30
+            (asked,) = [one.parameters for one in made.layers[0].string if one.symbol == "?"]
+            assert actor.position == pytest.approx((asked[0], height, asked[2]), abs=1e-9)
+            turned = math.cos(math.radians(angle)), 0, -math.sin(math.radians(angle))
+            assert actor.heading == pytest.approx(turned, abs=1e-9)
+            if place is not None:
+                way = [a - b for a, b in zip(actor.position, place, strict=True)]
+                assert way == pytest.approx([2 * one for one in turned], abs=1e-9)
+            place = actor.position
+            assert made.windows[0].camera.eye == actor.position
+
+
+@pytest.mark.capability("NA-004")
+def test_strings_step_once_however_many_look():
+    rules = "b (0.1) () () ()\n1.0\nb () (x1+) () () () () ()\nEndProb\nEnd\n"
+    placed = "RepetitionParameters startp_sidel_nbr_dist 0 9 4 0.1\n"
+    strings = []
+    for actors, repeated in [(0, ""), (1, ""), (6, ""), (3, placed)]:
+        made = Animation(
+            f"Camera_AnimationParameters t_final_interval 60 0.04\n{repeated}"
+            f"Options\nNBR_actors {actors}\nAxiom\nb {NONE}\nProductions\n{rules}EndProductions\n"
+        )
+        made.run(seconds=4)
+        strings.append((made.string(), made.crew.made, len(made.windows)))
+    assert {one[:2] for one in strings} == {strings[0][:2]}
+    assert [one[2] for one in strings] == [0, 1, 6, 3]
+
+
 @pytest.mark.capability("NA-130")
 def test_nobody_sees_its_own_body():
     body = f"M () (7) () (1) () () ()\ng () () () () () () ()\na () () () () (1) () ()\n] {NONE}\n"
@@ -240,6 +284,23 @@ def test_any_color_is_found_and_becomes_a_goal():
     stroke = f"r () () () () (51) (153) (255)\n{at(0.3, -0.1, 0)}\n+ () () () () (90) () ()\n"
     made = scene(stroke + "R () () () () (0.2) () ()\n", told, asked="?37")
     assert Code("stroke", (51, 153, 255)) in made.windows[0].codes
+
+
+@pytest.mark.capability("NA-134")
+@pytest.mark.parametrize(("aside", "error"), [(0, 0.05), (4, 0.5)])
+def test_how_large_a_thing_is(aside: float, error: float):
+    # A disc of 3 units across the line of sight, in the middle and aside.
+    disc = f"n () (64) () () () () ()\nm () (12) () () () () ()\n{at(9, aside, -aside)}\n"
+    disc += "s () () () () (0.001) (3) (3)\n"
+    eye = "iVisionWinSize_maxColors 0 100 2", "actorNbr_automata 0 0 9 interest 1 0"
+    window = scene(disc, *eye).windows[0]
+    seen = window.showing(names=("ball",))
+    expected = math.pi * 1.5**2
+    assert window.area(seen) == pytest.approx(expected, rel=0.05)
+    # Its distance alone is good enough in the middle, and worse aside.
+    far = float(np.median(window.depth[seen]))
+    assert window.area(seen, far) == pytest.approx(expected, rel=error)
+    assert abs(window.area(seen, far) - expected) > (aside > 0) * 0.05 * expected
 
 
 @pytest.mark.capability("NA-132")

@@ -103,6 +103,29 @@ class Window:
         x, y, z = (math.fsum(column) / len(points) for column in points.T.tolist())
         return x, y, z
 
+    def area(self, seen: NDArray[np.bool_], distance: float | None = None) -> float:
+        """Return how large some pixels are together, across the line of sight.
+
+        Parameters
+        ----------
+        seen
+            Which pixels (edge, edge).
+        distance
+            How far away all of them are, which is good enough for small things in the middle
+            (thesis, eq. 3.1.5 to 3.1.7); if not given, every pixel is as far ahead as its depth
+            says (eq. 3.1.8).
+
+        Returns
+        -------
+        float
+            Square units of the model.
+        """
+        chosen = seen & np.isfinite(self.depth)
+        ahead = self.local()[chosen][:, 2] if distance is None else np.full(chosen.sum(), distance)
+        half = math.radians(self.camera.angle) / 2
+        widths = 2 * ahead * (sine(half) / cosine(half)) / self.edge
+        return math.fsum((widths * widths).tolist())
+
     def showing(self, *, names: tuple[str, ...] = (), color: object = None) -> NDArray[np.bool_]:
         """Return which pixels show things of these names, or of this color."""
         wanted = [
