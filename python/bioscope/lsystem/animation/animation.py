@@ -10,7 +10,7 @@ from bioscope.files import written_whole
 from bioscope.lsystem.animation.automata import Actor, read_behavior
 from bioscope.lsystem.animation.derivation import Crew, Derivation
 from bioscope.lsystem.animation.directives import scene
-from bioscope.lsystem.animation.files import located, read_surface, record, surface_text
+from bioscope.lsystem.animation.files import located, read_surface, surface_text
 from bioscope.lsystem.animation.frame import Frame
 from bioscope.lsystem.animation.functions import SENSES
 from bioscope.lsystem.animation.machine import Compiler
@@ -20,8 +20,8 @@ from bioscope.lsystem.animation.particles import advance
 from bioscope.lsystem.animation.placement import placements
 from bioscope.lsystem.animation.sight import Eyes
 from bioscope.lsystem.animation.sounds import USER, VOCABULARY, Air
-from bioscope.lsystem.animation.vectors import ZERO, Pose, Vector, add, length, times, unit
-from bioscope.lsystem.animation.viewing import VOICE, Camera, Device, Light
+from bioscope.lsystem.animation.vectors import ZERO, Pose, Vector, length
+from bioscope.lsystem.animation.viewing import Camera, Device, Light
 from bioscope.lsystem.animation.walk import TABLE, Walk, touched
 from bioscope.lsystem.definition.grammar import pointing, read
 
@@ -32,7 +32,6 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from bioscope.lsystem.animation.derivation import Instance
     from bioscope.lsystem.animation.meshes import Part
     from bioscope.lsystem.animation.particles import Particle
     from bioscope.lsystem.animation.shapes import Shape
@@ -149,8 +148,10 @@ class Animation:
         self.states: list[Pose] = [Pose()] * TABLE
         self.look_at = ZERO
         self.captured: int | None = None
-        self._device = Device()
-        self._words: list[str] = []
+        self.device = Device()
+        """What moves the camera in the next frame, by hand (`use_device`)."""
+        self.words: list[str] = []
+        """Words that were spoken since the last frame (`say`)."""
         self._meshes, self._stroke = Meshes(), stroke
         self.air = Air(sounds or {})
         """What is heard."""
@@ -298,9 +299,9 @@ class Animation:
         for layer, places in zip(self.layers, self._placements, strict=True):
             for index, at in enumerate(places):
                 Walk(self, layer, index, at).run()
-        for word in self._words:
+        for word in self.words:
             self.air.begin(VOCABULARY[word], USER, self.camera.eye)
-        self._device, self._words = Device(), []
+        self.device, self.words = Device(), []
         if self.offline:
             name = f"{self._options.scene}.{self.frame.number:04d}.ray"
             self.produced[name] = scene(self.frame, self.camera)
@@ -344,7 +345,7 @@ class Animation:
 
     def use_device(self, device: Device) -> None:
         """Move the camera in the next frame, if a symbol `l` lets devices do so."""
-        self._device = device
+        self.device = device
 
     def say(self, words: str) -> None:
         """Speak to the world, as a recognizer of speech does.
@@ -353,7 +354,7 @@ class Animation:
         commands move the camera instead, if a symbol `l` lets voices do so.
         """
         if words in VOCABULARY:
-            self._words.append(words)
+            self.words.append(words)
         else:
             self.remark(f"nobody knows the word '{words}'")
 
@@ -398,59 +399,6 @@ class Animation:
         elif command is None and arguments:
             self.remark(f"command file {number} of 'E' is not declared")
 
-    def direct(self, one: Instance, walk: Walk) -> None:
-        """Let a symbol `l` direct camera, lights and microphones."""
-        camera, mode, told = self.camera, one.mode(3), one.growth
-        particle = walk.particle
-        if mode in (0, 8, 10):
-            camera.eye = told
-        elif mode == 1:
-            camera.target = told
-        elif mode == 2:
-            camera.angle, camera.aspect, camera.twist = told[0] / 10, told[1], told[2]
-        elif mode == 3:
-            self.light.position = told
-        elif mode == 4 and particle is not None:
-            camera.eye = particle.position
-        elif mode == 5 and particle is not None:
-            ahead = unit(particle.velocity)
-            if ahead is not None:
-                camera.target = add(particle.position, times(ahead, told[0]))
-        elif mode in (6, 7):
-            self._track(mode, round(told[0]))
-        elif mode == 9:
-            camera.follow(self._device)
-        elif mode == 11:
-            camera.hear([word for word in self._words if word in VOICE])
-            self._words = [word for word in self._words if word not in VOICE]
-        if mode == 10:
-            camera.target = self.look_at
-        if mode in (8, 10):
-            self.air.microphone(one.mode(2), camera.eye)
-
-    def _track(self, mode: int, number: int) -> None:
-        """Look with the eyes of an actor, or at it."""
-        actor = self.actor(number)
-        if mode == 7:
-            self.camera.target = actor.position
-            return
-        self.camera.eye = actor.position
-        self.camera.target = add(actor.position, actor.heading)
-        if number in self.traces:
-            self.traces[number].append(record(number, actor.state, self.time, actor.position))
-
-    def capture(self) -> None:
-        """Make a definition of one cube around what was drawn since the first mark."""
-        bounds = self.frame.bounds(self.captured or 0)
-        if self.captured is None or bounds is None:
-            self.remark("'D' 21 without a 'D' 20 before it, or with nothing drawn between them")
-            return
-        text = boxed(*bounds)
-        self.frame.proxies.append(text)
-        number = len(self.frame.proxies)
-        self.produced[f"box{number}.{self.frame.number:04d}.lm"] = text
-        self.captured = None
-
     def _automaton(self, number: int) -> float:
         active = self.actor(number).automaton
         return float(active) if active is not None else -1.0
@@ -459,19 +407,3 @@ class Animation:
         if words:
             behavior = read_behavior(words, place)
             self.actor(behavior.actor).push(behavior)
-
-
-def boxed(low: Vector, high: Vector) -> str:
-    """Return a definition of one cube with these corners."""
-    middle = [(a + b) / 2 for a, b in zip(low, high, strict=True)]
-    size = [b - a for a, b in zip(low, high, strict=True)]
-    start = low[0], middle[1], middle[2]
-    move = " ".join(f"({_postfix(one)})" for one in start)
-    cube = " ".join(f"({_postfix(one)})" for one in size)
-    return f"Axiom\nf () () () (2) {move}\nc () () () () {cube}\nProductions\nEndProductions\n"
-
-
-def _postfix(number: float) -> str:
-    """Return a number as an expression, which has neither sign nor exponent."""
-    text = f"{abs(number):.17f}".rstrip("0").rstrip(".")
-    return f"{text}_" if number < 0 else text

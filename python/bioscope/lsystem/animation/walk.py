@@ -12,6 +12,8 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from bioscope.lsystem.animation import shapes
+from bioscope.lsystem.animation.boxes import capture
+from bioscope.lsystem.animation.directing import direct
 from bioscope.lsystem.animation.directives import directive
 from bioscope.lsystem.animation.frame import Directive, Line, Piece
 from bioscope.lsystem.animation.materials import MATERIALS, Material
@@ -267,7 +269,7 @@ class Walk:
 
     def _camera(self, one: Instance) -> None:
         if self.first:
-            self.animation.direct(one, self)
+            direct(self.animation, one, self.particle)
 
     # Forces.
 
@@ -362,7 +364,7 @@ class Walk:
         elif mode == 20:
             animation.captured = len(frame.items)
         elif mode == 21:
-            animation.capture()
+            capture(animation)
         elif mode == 30:
             frame.printed.append(self.pose.position)
         elif mode == 40:
