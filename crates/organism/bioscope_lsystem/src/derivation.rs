@@ -7,6 +7,7 @@
 //! Files of the cpfg dialect that are derived without a seed give the strings of the reference
 //! program: they draw from its streams, module after module. With a seed they use ours.
 
+mod choosing;
 mod cuts;
 mod error;
 mod exchange;

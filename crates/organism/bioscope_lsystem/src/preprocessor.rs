@@ -2,10 +2,10 @@
 //! preprocessor.
 
 mod conditions;
+mod macros;
+mod token;
 
-use std::{collections::BTreeMap, ops::Range, sync::Arc};
-
-use logos::Logos;
+use std::{collections::BTreeMap, sync::Arc};
 
 use crate::{
     Diagnostic,
@@ -13,13 +13,9 @@ use crate::{
     source::{Origin, Source, Stretch},
 };
 use conditions::{Conditions, value};
+use macros::Macro;
+use token::{Fragment, Kind, Token, after, joined, line_end, tokenize};
 
-/// How deeply macros may be nested in one another.
-const DEPTH_LIMIT: usize = 64;
-/// How many tokens all expansions together may produce.
-const TOKEN_LIMIT: usize = 2_000_000;
-/// How many tokens the arguments of one call may have.
-const CALL_LIMIT: usize = 1_000;
 /// How many errors are kept.
 const ERROR_LIMIT: usize = 50;
 /// How many files may be included, and how deeply.
@@ -32,82 +28,6 @@ const DIRECTIVES: [&str; 13] = [
 ];
 /// How many bytes the expanded text may have.
 const SIZE_LIMIT: usize = 16 << 20;
-
-#[derive(Logos, Clone, Copy, Debug, PartialEq)]
-enum Kind {
-    #[regex(r"/\*([^*]|\*+[^*/])*\*+/")]
-    Comment,
-    #[token("/*")]
-    OpenComment,
-    #[regex(r"\r?\n")]
-    Newline,
-    #[regex(r"\\[ \t]*\r?\n")]
-    Continuation,
-    #[regex(r"[ \t\f]+")]
-    Blank,
-    #[regex(r"[A-Za-z_][A-Za-z0-9_]*")]
-    Name,
-    #[regex(r"[0-9]+(\.[0-9]*)?([eE][+-]?[0-9]+)?")]
-    #[regex(r"\.[0-9]+([eE][+-]?[0-9]+)?")]
-    Number,
-    #[regex(r#""[^"\n]*""#)]
-    Text,
-    #[token("#")]
-    Hash,
-    #[token("(")]
-    Open,
-    #[token(")")]
-    Close,
-    #[token(",")]
-    Comma,
-    #[regex(r"[^\n]", priority = 0)]
-    Other,
-}
-
-/// A token of one of the files.
-#[derive(Clone, Debug)]
-struct Token {
-    kind: Kind,
-    file: u16,
-    text: Fragment,
-    start: usize,
-}
-
-/// A piece of a file's text.
-#[derive(Clone, Debug)]
-struct Fragment {
-    file: Arc<str>,
-    span: Range<usize>,
-}
-
-impl std::ops::Deref for Fragment {
-    type Target = str;
-
-    fn deref(&self) -> &str {
-        &self.file[self.span.clone()]
-    }
-}
-
-impl Token {
-    fn origin(&self) -> Origin {
-        Origin { file: self.file, span: self.start..self.end() }
-    }
-
-    fn end(&self) -> usize {
-        self.start + self.text.len()
-    }
-
-    fn is_blank(&self) -> bool {
-        matches!(self.kind, Kind::Blank | Kind::Comment | Kind::Continuation)
-    }
-}
-
-#[derive(Clone, Debug)]
-struct Macro {
-    /// None for a constant: no parentheses follow its name.
-    formals: Option<Vec<String>>,
-    body: Arc<[Token]>,
-}
 
 /// Reads the files that a text includes, by the name in the directive; says why if it cannot.
 pub(crate) type Include<'a> = dyn Fn(&str) -> Result<String, String> + 'a;
@@ -322,159 +242,6 @@ impl Preprocessor<'_> {
             self.source.renumber(number.file, number.start, line, name.as_deref());
         }
     }
-
-    /// A definition: the whole line for reports, and its part after `define`.
-    fn define(&mut self, line: &[Token], rest: &[Token]) {
-        let name = rest.iter().find(|token| !token.is_blank());
-        let Some(name) = name.filter(|token| token.kind == Kind::Name) else {
-            let end = line[line.len() - 1].origin();
-            return self.error(end, "expected a name after #define");
-        };
-        let mut rest = after(rest, name);
-        let mut formals = None;
-        if let Some(open) = rest.first().filter(|token| token.kind == Kind::Open) {
-            let Some(close) = rest.iter().position(|token| token.kind == Kind::Close) else {
-                return self.error(open.origin(), "expected ')' after the macro's parameters");
-            };
-            let names = rest[1..close].iter().filter(|token| token.kind == Kind::Name);
-            formals = Some(names.map(|token| token.text.to_string()).collect());
-            rest = &rest[close + 1..];
-        }
-        let body = rest.iter().map(|token| {
-            let mut token = token.clone();
-            if token.is_blank() {
-                token.kind = Kind::Blank;
-                token.text = Fragment { file: " ".into(), span: 0..1 };
-            }
-            token
-        });
-        let body = body.skip_while(|token| token.kind == Kind::Blank).collect();
-        self.macros.insert(name.text.to_string(), Macro { formals, body });
-    }
-
-    /// Copies a name or expands the macro of this name; how many tokens it took from the file.
-    fn name(&mut self, tokens: &[Token]) -> usize {
-        let name = &tokens[0];
-        let used = match self.macros.get(&*name.text) {
-            None => None,
-            Some(Macro { formals: None, .. }) => Some(1),
-            Some(_) => call_length(&tokens[1..]).map(|length| length + 1),
-        };
-        let Some(used) = used else {
-            self.copy(name, &Conditions::default());
-            return 1;
-        };
-        let mut expanded = Vec::new();
-        match self.expand(&tokens[..used], &mut Vec::new(), &mut expanded) {
-            Ok(()) => {
-                let span = name.start..tokens[used - 1].end();
-                let origin = Origin { file: name.file, span };
-                emit(&mut self.source, &joined(&expanded), origin, Some((&*name.text).into()));
-            }
-            Err(message) => self.error(name.origin(), message),
-        }
-        used
-    }
-
-    /// Appends `tokens` with all macros expanded, except those `active` already.
-    fn expand(
-        &mut self,
-        tokens: &[Token],
-        active: &mut Vec<String>,
-        out: &mut Vec<Token>,
-    ) -> Result<(), String> {
-        if active.len() >= DEPTH_LIMIT {
-            return Err(format!("macros nested more than {DEPTH_LIMIT} deep"));
-        }
-        let mut next = 0;
-        while next < tokens.len() {
-            let token = &tokens[next];
-            self.produced += 1;
-            if self.produced > TOKEN_LIMIT {
-                return Err(format!("macros expand to more than {TOKEN_LIMIT} tokens"));
-            }
-            next += 1;
-            let known =
-                token.kind == Kind::Name && !active.iter().any(|name| **name == *token.text);
-            let Some(definition) = self.macros.get(&*token.text).filter(|_| known) else {
-                out.push(token.clone());
-                continue;
-            };
-            let Macro { formals, body } = definition.clone();
-            active.push(token.text.to_string());
-            match formals {
-                None => self.expand(&body, active, out)?,
-                Some(formals) => {
-                    let Some(length) = call_length(&tokens[next..]) else {
-                        active.pop();
-                        out.push(token.clone());
-                        continue;
-                    };
-                    let actuals = arguments(&tokens[next..next + length]);
-                    next += length;
-                    if actuals.len() != formals.len() {
-                        return Err(format!(
-                            "macro '{}' has {} parameters, found {}",
-                            &*token.text,
-                            formals.len(),
-                            actuals.len()
-                        ));
-                    }
-                    active.pop();
-                    let body = self.substitute(&body, &formals, &actuals, active)?;
-                    active.push(token.text.to_string());
-                    self.expand(&body, active, out)?;
-                }
-            }
-            active.pop();
-        }
-        Ok(())
-    }
-
-    /// The macro's body with its parameters replaced by the expanded arguments.
-    fn substitute(
-        &mut self,
-        body: &[Token],
-        formals: &[String],
-        actuals: &[&[Token]],
-        active: &mut Vec<String>,
-    ) -> Result<Vec<Token>, String> {
-        let mut expanded = Vec::new();
-        for actual in actuals {
-            let mut tokens = Vec::new();
-            // One more than the macros that are active, so that nested calls count as depth.
-            active.push(String::new());
-            self.expand(actual, active, &mut tokens)?;
-            active.pop();
-            expanded.push(tokens);
-        }
-        let mut out = Vec::new();
-        for token in body {
-            match formals.iter().position(|formal| **formal == *token.text) {
-                Some(index) => out.extend_from_slice(&expanded[index]),
-                None => out.push(token.clone()),
-            }
-            if self.produced + out.len() > TOKEN_LIMIT {
-                return Err(format!("macros expand to more than {TOKEN_LIMIT} tokens"));
-            }
-        }
-        self.produced += out.len();
-        Ok(out)
-    }
-
-    fn constants(&mut self) -> Vec<(String, String)> {
-        let constants = self.macros.iter().filter(|(_, definition)| definition.formals.is_none());
-        let bodies: Vec<(String, Arc<[Token]>)> =
-            constants.map(|(name, definition)| (name.clone(), definition.body.clone())).collect();
-        let mut texts = Vec::new();
-        for (name, body) in bodies {
-            let mut out = Vec::new();
-            if self.expand(&body, &mut vec![name.clone()], &mut out).is_ok() {
-                texts.push((name, joined(&out)));
-            }
-        }
-        texts
-    }
 }
 
 fn emit(source: &mut Source, text: &str, origin: Origin, made_by: Option<Arc<str>>) {
@@ -483,71 +250,6 @@ fn emit(source: &mut Source, text: &str, origin: Origin, made_by: Option<Arc<str
     }
     source.stretches.push(Stretch { expanded: source.expanded.len(), origin, made_by });
     source.expanded.push_str(text);
-}
-
-fn joined(tokens: &[Token]) -> String {
-    tokens.iter().map(|token| &*token.text).collect()
-}
-
-fn tokenize(text: &Arc<str>, file: u16) -> Vec<Token> {
-    let token = |(kind, span): (Result<Kind, ()>, Range<usize>)| Token {
-        kind: kind.unwrap_or(Kind::Other),
-        file,
-        start: span.start,
-        text: Fragment { file: text.clone(), span },
-    };
-    Kind::lexer(text).spanned().map(token).collect()
-}
-
-/// Index of the next newline, or the number of tokens.
-fn line_end(tokens: &[Token], from: usize) -> usize {
-    let newline = tokens[from..].iter().position(|token| token.kind == Kind::Newline);
-    newline.map_or(tokens.len(), |index| from + index)
-}
-
-/// What follows one of these tokens.
-fn after<'t>(tokens: &'t [Token], token: &Token) -> &'t [Token] {
-    let index = tokens.iter().position(|other| other.start == token.start);
-    &tokens[index.map_or(tokens.len(), |index| index + 1)..]
-}
-
-/// How many tokens the parenthesized arguments take that should stand first here, blanks
-/// included; all on one line.
-fn call_length(tokens: &[Token]) -> Option<usize> {
-    let open = tokens.iter().position(|token| token.kind != Kind::Blank)?;
-    let mut depth = 0_usize;
-    for (index, token) in tokens.iter().enumerate().take(CALL_LIMIT).skip(open) {
-        match token.kind {
-            Kind::Open => depth += 1,
-            Kind::Close => depth = depth.saturating_sub(1),
-            Kind::Newline => return None,
-            _ => {}
-        }
-        if depth == 0 {
-            return (index > open).then_some(index + 1);
-        }
-    }
-    None
-}
-
-/// The arguments between the parentheses of a call, separated by its commas.
-fn arguments(call: &[Token]) -> Vec<&[Token]> {
-    let open = call.iter().position(|token| token.kind == Kind::Open).unwrap_or(0);
-    let inside = &call[open + 1..call.len() - 1];
-    if inside.iter().all(|token| token.kind == Kind::Blank) {
-        return Vec::new();
-    }
-    let mut depth = 0_usize;
-    inside
-        .split(|token| {
-            match token.kind {
-                Kind::Open => depth += 1,
-                Kind::Close => depth = depth.saturating_sub(1),
-                _ => {}
-            }
-            depth == 0 && token.kind == Kind::Comma
-        })
-        .collect()
 }
 
 #[cfg(test)]
