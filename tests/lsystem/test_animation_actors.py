@@ -152,5 +152,11 @@ def test_animations_of_the_gallery_are_shown_by_name(bioscope, tmp_path):
     film = bioscope("grow", "wander", "-o", "walk.mp4", "--seconds", 0.2, "--size", "64x64")
     assert film.returncode == 0, film.stderr
     assert (tmp_path / "walk.mp4").stat().st_size > 500
+    for name in ("nectar", gallery.animations()["nectar"]):
+        ran = bioscope("run", name, "--seconds", 0.4, "--seed", 3, "--hash", "--save", "a.world")
+        assert ran.returncode == 0, ran.stderr
+    again = bioscope("run", "a.world", "--seconds", 0.4, "--hash")
+    whole = bioscope("run", "nectar", "--seconds", 0.8, "--seed", 3, "--hash")
+    assert again.stdout == whole.stdout != ran.stdout
     for wrong in (["-o", "bee.glb"], ["-o", "bee.png", "--steps", 3]):
         assert bioscope("grow", "nectar", *wrong).returncode != 0

@@ -8,8 +8,9 @@ import numpy as np
 
 from bioscope.errors import FormatError, InvalidValueError
 from bioscope.film import FilmOptions, film_world, take_still
-from bioscope.lsystem.specimen import Specimen, floor
+from bioscope.lsystem.specimen import FLOOR, floor
 from bioscope.populations.animated import Animated
+from bioscope.populations.scenery import Props
 from bioscope.world import World
 
 if TYPE_CHECKING:
@@ -52,7 +53,7 @@ def show_animation(
     if output.suffix not in (".mp4", ".png"):
         raise InvalidValueError(f"{output}: expected a name that ends in .mp4 or .png")
     animated = Animated(path, seed=seed)
-    world = stage(animated, path)
+    world = stage(animated, path.stem)
     if output.suffix == ".png":
         world.run(seconds)
         take_still(world, output, "own", size=size)
@@ -62,20 +63,27 @@ def show_animation(
     film_world(world, output, options, say=say)
 
 
-def stage(animated: Animated, path: Path) -> World:
-    """Return a world with an animation, a floor below it, and its own camera `own`."""
+def stage(animated: Animated, name: str) -> World:
+    """Return a world with an animation of this name, a floor below it, and its own camera `own`.
+
+    Raises
+    ------
+    FormatError
+        If the animation draws nothing.
+    """
     animation = animated.animation
     points = np.array(list(animation.frame.points()), np.float32)
     if not len(points):
-        raise FormatError(f"{path}: nothing to see: the turtle draws neither shapes nor strokes")
+        raise FormatError(f"{name}: nothing to see: the turtle draws neither shapes nor strokes")
     low, high = points.min(axis=0), points.max(axis=0)
-    world = World(seed=animation.seed, dt=animation.interval, title=path.stem)
     size = float(np.linalg.norm(high - low))
     # A little lower than what lies on the ground.
-    level = min(float(low[1]), 0.0) - 0.001 * size
-    world.add(Specimen(floor((low + high) / 2, level, size), "floor"))
-    world.add(animated, path.stem)
-    eye, target = animation.camera.eye, animation.camera.target
-    angle = animation.camera.angle
-    world.cameras.fixed("own", position=eye, target=target, field_of_view=angle)
+    ground = floor((low + high) / 2, min(float(low[1]), 0.0) - 0.001 * size, size)
+    world = World(seed=animation.seed, dt=animation.interval, title=name)
+    world.add(Props(ground.positions, ground.triangles, species="floor", color=FLOOR), "floor")
+    world.add(animated, name)
+    camera = animation.camera
+    world.cameras.fixed(
+        "own", position=camera.eye, target=camera.target, field_of_view=camera.angle
+    )
     return world

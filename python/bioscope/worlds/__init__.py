@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from bioscope import gallery
 from bioscope.errors import BioscopeError, FormatError, UnknownNameError
 from bioscope.world import World
 from bioscope.world.changes import read_script
@@ -77,7 +78,8 @@ def load(name: str, seed: int | None = None) -> World:
     ----------
     name
         A ready-made world (see `names`), or the path of a Python file that defines
-        `world(seed: int) -> bioscope.World`, or of a saved world or its script (`.json`).
+        `world(seed: int) -> bioscope.World`, or of a saved world or its script (`.json`); or an
+        animation of the gallery, or a definition file (`.lm`), on a floor of its own.
     seed
         Its seed; one is drawn if not given.
 
@@ -95,7 +97,9 @@ def load(name: str, seed: int | None = None) -> World:
     if name in names():
         module = importlib.import_module(f"bioscope.worlds.{name}.world")
         return _made(module, name, seed)
-    path = Path(name)
+    path = gallery.animations().get(name, Path(name))
+    if path.suffix == ".lm" and path.is_file():
+        return _animated(path, seed)
     if path.suffix == ".world" and path.is_file():
         return World.restore(path)
     if path.suffix == ".json" and path.is_file():
@@ -106,6 +110,14 @@ def load(name: str, seed: int | None = None) -> World:
         raise UnknownNameError(f"{name}: no such file")
     known = ", ".join(names())
     raise UnknownNameError(f"unknown world '{name}'; known: {known}, or the path of a Python file")
+
+
+def _animated(path: Path, seed: int) -> World:
+    # Imported when needed: few worlds are animations.
+    from bioscope.lsystem.showing import stage
+    from bioscope.populations.animated import Animated
+
+    return stage(Animated(path, seed=seed), path.stem)
 
 
 def _played(path: Path) -> World:
