@@ -112,7 +112,7 @@ def test_the_root_of_a_pectoral_fin_stays_on_its_control_point(form, swimming):
     assert max(moved) > 0.02
 
 
-@pytest.mark.capability("TF-060")
+@pytest.mark.capability("TF-060", "AA-007")
 def test_the_skin_is_exact_at_rest_and_rigid_with_a_rigid_body(form):
     rest = bio.fish.Tank("anthias", length=0.3)
     skin = bio.fish.Skin(form, rest.nodes, rest.faces)

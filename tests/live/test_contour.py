@@ -13,6 +13,9 @@ import pytest
 from PIL import Image
 from test_server import free_port
 
+import bioscope as bio
+from bioscope.lsystem.specimen import Specimen
+
 pytestmark = pytest.mark.browser
 
 WIDTH, HEIGHT = 480, 320
@@ -32,10 +35,10 @@ def address():
     process.kill()
 
 
-def half_height(along):
+def half_height(along, depth=95.0):
     """Half the height of the drawn body at places along it, -1 (snout) to 1 (root of the tail)."""
     inside = np.abs(along) < 1
-    return np.where(inside, 95 * np.sqrt(np.maximum(1 - along**2, 0)) * (1 - 0.3 * along), 0)
+    return np.where(inside, depth * np.sqrt(np.maximum(1 - along**2, 0)) * (1 - 0.3 * along), 0)
 
 
 def outline():
@@ -46,12 +49,17 @@ def outline():
     )
 
 
-def picture(marks=0):
-    """A striped body on a plain ground; with marks in the corners, so many pixels from it."""
+def drawn(depth=95.0):
+    """Colors of a striped body on a plain ground, and where the body is."""
     y, x = np.mgrid[:HEIGHT, :WIDTH] + 0.5
-    inside = np.abs(y - CENTER[1]) < half_height((x - CENTER[0]) / 180)
+    inside = np.abs(y - CENTER[1]) < half_height((x - CENTER[0]) / 180, depth)
     shade = np.where(inside, 0.55 + 0.1 * np.sin(x / 9), 0.9)
-    rgb = np.stack([shade, 0.8 * shade, np.where(inside, 0.2, shade)], axis=2)
+    return np.stack([shade, 0.8 * shade, np.where(inside, 0.2, shade)], axis=2), inside
+
+
+def picture(marks=0, depth=95.0):
+    """The drawn body as a file; with marks in the corners, so many pixels from it."""
+    rgb, _ = drawn(depth)
     if marks:
         left, right = int(CENTER[0] - 180 - marks), int(CENTER[0] + 180 + marks)
         top, bottom = int(CENTER[1] - 97 - marks), int(CENTER[1] + 97 + marks)
@@ -113,7 +121,7 @@ def distances(points):
     return np.linalg.norm(points[:, None] - outline()[None], axis=2).min(axis=1)
 
 
-@pytest.mark.capability("TF-054", "TF-059")
+@pytest.mark.capability("TF-054", "TF-059", "AA-006")
 def test_the_mesh_locks_to_the_outline(page):
     press(page, "Settle")
     status(page, "settled")
@@ -126,10 +134,39 @@ def test_the_mesh_locks_to_the_outline(page):
     assert coordinates.max() <= 1
     points = coordinates * [WIDTH, HEIGHT]
     assert distances(border(points)).max() < 2
+    across, down = np.diff(points, axis=1)[:-1], np.diff(points, axis=0)[:, :-1]
+    assert (across[..., 0] * down[..., 1] > across[..., 1] * down[..., 0]).all(), (
+        "all cells have areas of one sign"
+    )
     assert "0 folds" in page.locator(".status").text_content()
     inner = points[1:-1, 1:-1]
     around = points[:-2, 1:-1] + points[2:, 1:-1] + points[1:-1, :-2] + points[1:-1, 2:]
     assert np.linalg.norm(inner - around / 4, axis=2).max() < 2
+
+
+@pytest.mark.capability("AA-005")
+@pytest.mark.parametrize("depth", [55.0, 95.0, 105.0], ids=["slender", "plump", "deep"])
+def test_the_modelled_fish_looks_like_its_picture(page, depth):
+    page.set_input_files("input[type=file]", picture(depth=depth))
+    page.wait_for_timeout(300)
+    press(page, "Settle")
+    status(page, "settled")
+    form = bio.fish.Form.of_picture(
+        table(page)["coordinates"], (WIDTH, HEIGHT), length=0.36, fins=(1e-4, 1e-4)
+    )
+    rgb, inside = drawn(depth)
+    pixels = np.dstack([(255 * rgb).astype(np.uint8), np.full((HEIGHT, WIDTH), 255, np.uint8)])
+    world = bio.World(seed=1)
+    world.add(Specimen(form.mesh(), "pictured", material=bio.Material(texture=pixels)))
+    world.step()
+    # From so far away, the body's side is seen as in the picture: 360 pixels are 0.36 m.
+    camera = bio.Camera.looking_at((48, 0, -0.18), (0, 0, -0.18), 2 * np.arctan(0.16 / 48))
+    seen = bio.look(world.scene, camera, (WIDTH, HEIGHT))
+    shown = seen.identity > 0
+    assert (shown & inside).sum() / (shown | inside).sum() >= 0.9
+    both = shown & inside
+    drawn_shade, seen_shade = rgb[..., 0][both], seen.color[..., 0][both]
+    assert np.corrcoef(drawn_shade, seen_shade)[0, 1] > 0.45, "stripes are where they were drawn"
 
 
 @pytest.mark.capability("TF-055")
