@@ -59,6 +59,7 @@ bench: setup ## run the benchmarks: a table, and bench/results.json
 
 docs: setup ## build the documentation into site/
 	$(BIN)/python scripts/reproductions.py
+	$(BIN)/python scripts/model_sizes.py
 	$(BIN)/python scripts/parameters.py
 	$(BIN)/python scripts/gallery.py
 	$(BIN)/python scripts/films.py
