@@ -1,13 +1,14 @@
 """Actors that see: their windows, and every function that asks what is in them."""
 
 import math
+import random
 
 import msgspec
 import numpy as np
 import pytest
 
 import bioscope as bio
-from bioscope.errors import FormatError
+from bioscope.errors import FormatError, InvalidValueError
 from bioscope.live.inspection import inspection
 from bioscope.live.messages import Select
 from bioscope.lsystem import Animation
@@ -138,6 +139,15 @@ def test_bodies_go_with_actors_and_actors_with_rules():
                 assert way == pytest.approx([2 * one for one in turned], abs=1e-9)
             place = actor.position
             assert made.windows[0].camera.eye == actor.position
+    # Or it rides on a particle, and looks where that goes.
+    ride = "C () (1) () () (2) (T) (T3*_)\n$ () () (4) () () () ()\n" + f"g {NONE}\n"
+    made = scene(box((2, 5, -15), (1, 1, 1), 4) + ride)
+    for _ in range(100):
+        made.advance()
+    actor = made.actors[0]
+    assert actor.position == pytest.approx((2, made.time, -3 * made.time), abs=1e-9)
+    assert actor.heading == pytest.approx((0, 1 / 10**0.5, -3 / 10**0.5), abs=1e-9)
+    assert made.windows[0].distance == pytest.approx(2.38 / 3 * 10**0.5, rel=0.02)
 
 
 @pytest.mark.capability("NA-004")
@@ -286,6 +296,46 @@ def test_any_color_is_found_and_becomes_a_goal():
     assert Code("stroke", (51, 153, 255)) in made.windows[0].codes
 
 
+def chromatic(a: tuple[float, ...], b: tuple[float, ...]) -> float:
+    return math.dist(*([one / sum(color) for one in color] for color in (a, b)))
+
+
+@pytest.mark.capability("NA-133")
+def test_a_ball_is_told_by_its_hue_in_light_and_shade():
+    ball = MATERIALS[12].diffuse
+    others = [
+        number
+        for number, one in MATERIALS.items()
+        if one.specular <= 0.04 and chromatic(one.diffuse, ball) >= 0.2
+    ]
+    assert len(others) >= 6
+    chance = random.Random(17)
+    shades = []
+    for _ in range(60):
+        # Somewhere in view, from whatever side: four boxes, and the ball before or behind them.
+        way = np.array([chance.gauss(0, 1) for _ in range(3)])
+        way /= np.linalg.norm(way)
+        places = [way * chance.uniform(3, 9) + [chance.uniform(-2, 2)] * 3 for _ in range(5)]
+        *boxes, place = [tuple(float(round(part, 3)) for part in one) for one in places]
+        things = "".join(box(one, (1.2, 1.2, 1.2), chance.choice(others)) for one in boxes)
+        things += f"n () (24) () () () () ()\nm () (12) () () () () ()\n{at(*place)}\n"
+        things += "a () () () () (1.6) () ()\n"
+        x, y, z = (f"{part:.6f}" for part in way)
+        window = scene(things, f"actorNbr_automata 0 0 9 lat {x} {y} {z}").windows[0]
+        truth, seen = window.showing(names=("ball",)), window.resembling(ball)
+        assert not (seen & ~truth).any()
+        if truth.sum() >= 5:
+            assert (seen & truth).sum() >= 0.9 * truth.sum()
+            assert math.dist(window.center(seen), place) <= 0.8
+            shades.append(window.color[truth].sum(axis=1))
+    # Its sunny side is four times as bright as its dark one.
+    assert len(shades) >= 30
+    bright = np.concatenate(shades)
+    assert bright.max() > 4 * bright.min()
+    with pytest.raises(InvalidValueError, match="not black"):
+        window.resembling((0, 0, 0))
+
+
 @pytest.mark.capability("NA-134")
 @pytest.mark.parametrize(("aside", "error"), [(0, 0.05), (4, 0.5)])
 def test_how_large_a_thing_is(aside: float, error: float):
@@ -330,6 +380,19 @@ def test_what_is_answered_is_the_past():
     made = scene(f"M () (7) () (4) () () ()\nb () () () () (?30) () ()\nb {NONE}\n")
     assert made.layers[0].string[1].growth[0] == 10000
     assert made.remarks == ["actor 4 has no eye: 'NBR_actors' does not declare it"]
+
+
+def test_what_is_too_large_is_left_out():
+    corner = f". {NONE}\n"
+    far = "f () () () (2) (1) (10'20^) ()\n"
+    for huge, symbol in [
+        ("c () () () () (10'300^) (1) (1)\n", "c"),
+        ("f () () () () (10'300^) () ()\nR () () () () (10'308^) () ()\n", "R"),
+        (f"{{ {NONE}\n{corner}{at(1, 0, 0)}\n{corner}{far}{corner}}} {NONE}\n", "}"),
+    ]:
+        made = scene(box((3, 0, 0), (1, 1, 1), 4) + huge)
+        assert made.windows[0].distance == pytest.approx(2.5, rel=1e-3)
+        assert made.remarks == [f"'{symbol}' draws beyond 1e+09 units; it is left out"]
 
 
 @pytest.mark.parametrize(

@@ -59,11 +59,12 @@ impl Publication {
         Self::new(Moment { seed: 0, tick: 0, time: 0.0, dt: 0.0 })
     }
 
-    /// What was shown so far as a scene: by itself, or in that of a world without these individuals.
+    /// What was shown so far as a scene: by itself in white light, which leaves colors their hue, or in the scene
+    /// of a world without these individuals.
     #[pyo3(signature = (around=None, *, without=Vec::new()))]
     fn scene(&self, around: Option<&Bound<'_, Scene>>, without: Vec<u32>) -> Scene {
-        let mut scene = around
-            .map_or_else(geometry::Scene::default, |around| around.get().scene.without(&without));
+        let mut scene =
+            around.map_or_else(in_white_light, |around| around.get().scene.without(&without));
         let parts = self.parts();
         scene.batches.extend(parts.batches.iter().cloned());
         scene.points.extend(parts.points.iter().cloned());
@@ -228,6 +229,12 @@ impl Publication {
     fn annotate(&self, subject: u32, role: &str, mark: Mark) {
         self.parts().annotations.push(Annotation { subject, role: role.to_owned(), mark });
     }
+}
+
+fn in_white_light() -> geometry::Scene {
+    let sun = geometry::Sun { color: [3.0; 3], ..geometry::Sun::default() };
+    let sky = geometry::Sky { zenith: [0.5; 3], horizon: [0.7; 3], nadir: [0.2; 3] };
+    geometry::Scene { sun, sky, ..geometry::Scene::default() }
 }
 
 fn quaternions(array: &PyReadonlyArray2<'_, f32>, count: usize) -> Result<Vec<Quat>> {

@@ -21,7 +21,7 @@ from bioscope.lsystem.animation.particles import force_of
 from bioscope.lsystem.animation.vectors import DOWN, ZERO, Pose, Vector, add, subtract, times
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterable
 
     from bioscope.lsystem.animation.animation import Animation
     from bioscope.lsystem.animation.derivation import Derivation, Instance
@@ -35,6 +35,8 @@ TABLE = 7
 """Stored positions and states are numbered 1 to 6."""
 DEEPEST = 100_000
 """Most open branches."""
+FARTHEST = 1e9
+"""Greatest coordinate of what is drawn, units of the model."""
 _BENT_BEFORE, _BENT_AFTER = "RSONo", "cdpqPQs"
 
 
@@ -113,8 +115,17 @@ class Walk:
         if before is None or before[0] != key:
             corners, faces = make(*given)
             piece = Piece(one.symbol, corners, faces, self.material, smooth, self.body, convex=True)
+            if not self.is_near(one, piece.corners):
+                return
             before = one.drawn[self.repetition] = key, piece
         self.animation.frame.items.append(before[1])
+
+    def is_near(self, one: Instance, points: Iterable[Vector]) -> bool:
+        """Tell whether points are not too far away to be drawn; if they are, that is remarked."""
+        near = all(abs(part) <= FARTHEST for point in points for part in point)
+        if not near:
+            self.animation.remark(f"'{one.symbol}' draws beyond {FARTHEST:g} units; it is left out")
+        return near
 
     def size(self, one: Instance) -> Vector:
         """Return the growth values as lengths at this place."""
@@ -217,7 +228,9 @@ class Walk:
     def _line(self, one: Instance) -> None:
         start = self.pose.position
         self.advance(self.size(one)[0])
-        self.animation.frame.items.append(Line(start, self.pose.position, self.color, self.body))
+        if self.is_near(one, (start, self.pose.position)):
+            line = Line(start, self.pose.position, self.color, self.body)
+            self.animation.frame.items.append(line)
 
     def _begin_polygon(self, one: Instance) -> None:
         self.polygons.append([])
@@ -238,8 +251,9 @@ class Walk:
             distance=self.size(one)[0],
         )
         for corners, faces in made:
-            piece = Piece(one.symbol, corners, faces, self.material, body=self.body)
-            self.animation.frame.items.append(piece)
+            if self.is_near(one, corners):
+                piece = Piece(one.symbol, corners, faces, self.material, body=self.body)
+                self.animation.frame.items.append(piece)
 
     def _imported(self, one: Instance) -> None:
         surface = self._layer_surfaces().get(one.mode(1))

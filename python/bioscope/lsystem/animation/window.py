@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from bioscope._engine import cosine, sine
+from bioscope.errors import InvalidValueError
 from bioscope.lsystem.animation.viewing import Camera
 
 if TYPE_CHECKING:
@@ -23,6 +24,8 @@ if TYPE_CHECKING:
 
     Numbers = NDArray[np.float64]
 
+ALIKE = 0.05
+"""Chromatic distance below which colors are the same (thesis, section 3.1: that of the ball)."""
 TIE = 1e-3
 """Share by which an obstacle on the left must be nearer than one on the right to be the nearest."""
 
@@ -134,6 +137,34 @@ class Window:
             if code.name in names or code.color == color
         ]
         return np.isin(self.identity, wanted)
+
+    def resembling(
+        self, color: tuple[float, float, float], threshold: float = ALIKE
+    ) -> NDArray[np.bool_]:
+        """Return which pixels have the hue of a color, in light and shade (thesis, section 3.1).
+
+        Colors are compared by their shares of red, green and blue, so light must be white, and
+        things must be matt.
+
+        Parameters
+        ----------
+        color
+            Red, green and blue as definitions give them, in whatever unit.
+        threshold
+            Euclidean distance between the shares; those of different things should be 0.2 apart.
+
+        Raises
+        ------
+        InvalidValueError
+            For black, which has no hue.
+        """
+        if not sum(color) > 0:
+            raise InvalidValueError(f"color = {color}: expected one that is not black")
+        wanted = np.array(color) / sum(color)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            shares = self.color / self.color.sum(axis=2, keepdims=True)
+        away: Numbers = np.sqrt(((shares - wanted) ** 2).sum(axis=2))
+        return np.isfinite(self.depth) & (away < threshold)
 
     def obstacle(self, size: float, reach: float) -> float:
         """Return on which side the way is obstructed.
