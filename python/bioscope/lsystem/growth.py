@@ -9,7 +9,16 @@ import numpy as np
 from bioscope.errors import InvalidValueError
 from bioscope.film import FilmOptions, film_world
 from bioscope.lsystem.lsystem import LSystem
-from bioscope.lsystem.specimen import HAZELESS, VIEW_DEGREES, Specimen, camera, floor, shape
+from bioscope.lsystem.specimen import (
+    HAZELESS,
+    VIEW_DEGREES,
+    Specimen,
+    camera,
+    floor,
+    levels,
+    shape,
+    surroundings,
+)
 from bioscope.lsystem.turtle import Turtle
 from bioscope.populations.place import Disk, Habitat
 from bioscope.populations.plants import Plants
@@ -20,6 +29,8 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from numpy.typing import NDArray
+
+    from bioscope.environments import Environment
 
 _GROWING = 0.85
 """Share of the film in which the plant grows; then it is there to be looked at."""
@@ -65,7 +76,8 @@ def film_growth(
     if steps < 1:
         raise InvalidValueError(f"{path}: expected a model of one step or more to film its growth")
     options = FilmOptions(seconds=seconds, size=size, camera="portrait")
-    points = _reached(path, system, steps, seed)
+    around = surroundings(system)
+    points = _reached(path, system, steps, seed, around)
     world = _stage(points, size[0] / size[1], seed)
     # What the last step makes grows for as long as a step lasts.
     pace = (steps + 1) / (seconds * _GROWING)
@@ -81,14 +93,17 @@ def film_growth(
             turned=False,
             variety=0.0,
             flexibility=0.0,
+            levels=levels(around) or None,
         )
     )
     film_world(world, output, options, say=say)
 
 
-def _reached(path: Path, system: LSystem, steps: int, seed: int) -> NDArray[np.float32]:
+def _reached(
+    path: Path, system: LSystem, steps: int, seed: int, around: Environment | None
+) -> NDArray[np.float32]:
     """Return points (n, 3) that the plant reaches while it grows, metres."""
-    points = [shape(path, system, steps, seed).positions]
+    points = [shape(path, system, steps, seed, environment=around).positions]
     if not system.environment:
         for age in _STAGES:
             drawn = Turtle().interpret(system.derive(max(1, round(age * steps)), seed))

@@ -216,23 +216,33 @@ def portrait(
     return _engine.Rasterizer(picture=True).picture(world.scene, view, width, height)
 
 
-def _fields(around: Environment | None) -> list[tuple[Mesh, Material]]:
-    """Return what is seen of the amounts that an environment keeps, from least to most."""
+def levels(around: Environment | None) -> list[float]:
+    """Return the amounts that are seen of what an environment keeps: surfaces in a deep field."""
     amounts = None if around is None else around.amounts
     if amounts is None or not amounts.values.size:
         return []
     least, most = float(amounts.values.min()), float(amounts.values.max())
     if not most > least:
         return []
+    return [least + share * (most - least) for share in LEVELS] if amounts.deep else [most]
+
+
+def _fields(around: Environment | None) -> list[tuple[Mesh, Material]]:
+    """Return what is seen of the amounts that an environment keeps, from least to most."""
+    shown = levels(around)
+    amounts = around.amounts if around is not None and shown else None
+    if amounts is None:
+        return []
     if not amounts.deep:
+        least, most = float(amounts.values.min()), shown[0]
         matt = _engine.Material("field", color=(1.0, 1.0, 1.0), roughness=1.0, two_sided=True)
         above = Amounts(amounts.values - np.float32(least), amounts.low, amounts.cell)
         return [(above.sheet(most - least), matt)]
     fields = []
-    for share in LEVELS:
+    for share, level in zip(LEVELS, shown, strict=True):
         color = tuple((0.25 + 0.75 * share) * part for part in WATER)
         veil = _engine.Material("field", color=color, opacity=VEIL, roughness=0.35, two_sided=True)
-        fields.append((amounts.surface(least + share * (most - least)), veil))
+        fields.append((amounts.surface(level), veil))
     return fields
 
 

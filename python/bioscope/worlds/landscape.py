@@ -174,16 +174,19 @@ def floor(bright: Patch, glade: Patch, half: float) -> Sheet:
     """
     axis = np.linspace(-1.02 * half, 1.02 * half, 181)
     x, z = np.meshgrid(axis, axis)
-    inside = np.hypot(x, z) < half
+    angle = np.arctan2(z, x)
+    # No compass has drawn its edge.
+    reach = half * (0.9 + 0.06 * np.sin(3 * angle) + 0.04 * np.sin(7 * angle + 1))
+    within = np.clip((reach - np.hypot(x, z)) / 0.9, 0.0, 1.0)
     light = np.full_like(x, 0.3)
     for ((px, pz), radius), level in zip((bright, glade), (1.0, 0.6), strict=True):
         edge = np.clip((radius - np.hypot(x - px, z - pz)) / 0.12 + 0.5, 0.0, 1.0)
         light = light + (level - light) * edge
     grain = np.random.default_rng(5).uniform(0.75, 1.25, x.shape)
-    colors = (0.12 + 0.88 * light * grain)[..., None] * np.array([0.36, 0.29, 0.15])
-    fading = np.clip((half - np.hypot(x, z)) / 0.8, 0.0, 1.0)[..., None]
+    colors = (0.12 + 0.88 * light * grain)[..., None] * np.array([0.25, 0.235, 0.115])
+    fading = within[..., None]
     colors = colors * fading + np.array(LOAM) * (1 - fading)
     # Crumbs keep it from being taken for one flat triangle.
-    relief = np.where(inside, 0.016 * (grain - 1.0) + 0.006, -0.05)
+    relief = 0.016 * (grain - 1.0) + 0.006 - 0.05 * (1.0 - within) ** 2
     # The other way round along z, so that it is seen from above.
     return Sheet(np.stack([x, relief, z], axis=-1)[::-1], colors[::-1])

@@ -31,7 +31,7 @@ def world(seed: int) -> bio.World:
     landscape.rolling(land, extent=40.0, relief=2.2, flat=6.0)
     land.add(bio.Ground(rock_slope=70.0, rock_height=1e4, sand_color=landscape.LOAM))
     landscape.daylight(land, elevation=58.0, azimuth=-120.0)
-    land.add(landscape.floor(BRIGHT, GLADE, half=3.0), "floor")
+    land.add(landscape.floor(BRIGHT, GLADE, half=4.4), "floor")
     land.add(clone(), "clover")
     random = np.random.default_rng(seed)
     angles, ways = random.uniform(0, 2 * np.pi, 1500), 3.2 + 11 * random.uniform(0, 1, 1500) ** 1.6
