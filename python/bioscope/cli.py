@@ -31,6 +31,9 @@ class Commands(click.Group):
         except KeyboardInterrupt:
             print("interrupted", file=sys.stderr)
             raise click.exceptions.Exit(130) from None
+        except BrokenPipeError:
+            # Whoever read the output has seen enough; click ends quietly.
+            raise
         except (BioscopeError, OSError, MemoryError) as error:
             print(f"bioscope: {_told(error)}", file=sys.stderr)
             raise click.exceptions.Exit(1) from None

@@ -19,6 +19,13 @@ def test_version_and_list(bioscope):
     assert "kelp" in listed
 
 
+def test_who_has_read_enough_hears_no_complaint():
+    command = f"{sys.executable} -m bioscope.cli list | head -1"
+    done = subprocess.run(["sh", "-c", command], capture_output=True, text=True, check=True)
+    assert len(done.stdout.splitlines()) == 1
+    assert done.stderr == ""
+
+
 def test_run_prints_the_hash_last_and_repeats_it(bioscope, script):
     first = bioscope("run", script, "--seconds", 1, "--seed", 4, "--hash")
     again = bioscope("--quiet", "run", script, "--seconds", 1, "--seed", 4, "--hash")

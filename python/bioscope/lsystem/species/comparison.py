@@ -14,6 +14,7 @@ from bioscope.lsystem.lsystem import LSystem
 from bioscope.lsystem.species.silhouette import (
     cut_out,
     laid_over,
+    share,
     silhouette_of_picture,
     silhouette_of_plant,
 )
@@ -85,7 +86,7 @@ def compare(folder: Path, seed: int = 1) -> list[Match]:
                 size = len(cut_out(outline)) * row / height
             at_age.append(laid_over(outline, picture, size))
         found.append(at_age)
-    shares = np.array([[_share(*pair) for pair in at_age] for at_age in found])
+    shares = np.array([[share(*pair) for pair in at_age] for at_age in found])
     best = int(shares.mean(axis=0).argmax())
     ages = [age for age, _ in pictures]
     return [
@@ -109,10 +110,6 @@ def _pictures(folder: Path) -> dict[tuple[int, float | None], Mask]:
     if not pictures:
         raise FormatError(f"{folder}: no photographs (PNG files named by age, as 12.png)")
     return dict(sorted(pictures.items(), key=lambda item: item[0][0]))
-
-
-def _share(one: Mask, other: Mask) -> float:
-    return float((one & other).sum() / max(int((one | other).sum()), 1))
 
 
 def sheet(matches: list[Match]) -> NDArray[np.uint8]:

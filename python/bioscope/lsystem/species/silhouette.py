@@ -144,7 +144,7 @@ def laid_over(plant: Mask, picture: Mask, size: float = 1.0) -> tuple[Mask, Mask
         canvases.append(np.pad(mask, ((rows - len(mask), 0), (side, side))))
     first, second = canvases
     shifts = range(-reach, reach + 1, 2)
-    best = max(shifts, key=lambda shift: _share(np.roll(second, shift, axis=1), first))
+    best = max(shifts, key=lambda shift: share(np.roll(second, shift, axis=1), first))
     return np.roll(second, best, axis=1), first
 
 
@@ -153,8 +153,9 @@ def overlap(plant: Mask, picture: Mask, size: float = 1.0) -> float:
 
     They are brought to one height (or their heights to the ratio `size`), foot on foot.
     """
-    return _share(*laid_over(plant, picture, size))
+    return share(*laid_over(plant, picture, size))
 
 
-def _share(one: Mask, other: Mask) -> float:
+def share(one: Mask, other: Mask) -> float:
+    """Return intersection over union of two masks of one canvas."""
     return float((one & other).sum() / max(int((one | other).sum()), 1))
