@@ -18,10 +18,10 @@ from bioscope.film.renderer import renderer
 FOLDER = Path(__file__).resolve().parents[1] / "docs/films"
 SIZE = (1280, 720)
 MOMENTS = {
-    "go_fish": (14.4, 17.5),
+    "go_fish": (17.0, 20.0),
     "jack_cousto": (9.5, 24.0),
-    "mating": (10.0, 36.0),
-    "preying": (6.0, 15.5),
+    "mating": (12.0, 54.0),
+    "preying": (5.0, 15.5),
     "schooling": (8.0, 18.5),
 }
 """Seconds of each film at which its stills are taken."""

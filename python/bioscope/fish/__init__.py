@@ -5,6 +5,7 @@ from bioscope.fish.form import Fin, Form, Skin
 from bioscope.fish.nurbs import Nurbs
 from bioscope.fish.shoal import Shoal
 from bioscope.fish.tank import Preset, Tank
+from bioscope.fish.trace import Tick, trace
 
 __all__ = [
     "Fin",
@@ -15,5 +16,7 @@ __all__ = [
     "Shoal",
     "Skin",
     "Tank",
+    "Tick",
     "capture",
+    "trace",
 ]
