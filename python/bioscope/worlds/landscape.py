@@ -102,7 +102,7 @@ def daylight(world: bio.World, *, elevation: float = 34.0, azimuth: float = 62.0
     world.environment.set(sun_elevation=elevation, sun_azimuth=azimuth, sunlight=1.15)
 
 
-def lawn(world: bio.World, soil: tuple[float, float, float] = (0.13, 0.23, 0.06)) -> None:
+def lawn(world: bio.World, soil: tuple[float, float, float] = (0.125, 0.17, 0.062)) -> None:
     """Cover the ground with a mown lawn, with a light wind over it."""
     world.add(bio.Ground(rock_slope=70.0, rock_height=1e4, sand_color=soil))
     world.environment.add(
