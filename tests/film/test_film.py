@@ -1,5 +1,6 @@
 """Films: pictures, sound, cameras, and going on after an interruption."""
 
+import hashlib
 import signal
 import subprocess
 import sys
@@ -10,6 +11,7 @@ import numpy as np
 import pytest
 from conftest import small_world
 
+import bioscope as bio
 from bioscope.errors import UnknownNameError
 from bioscope.film import FilmOptions, film_world
 
@@ -45,6 +47,20 @@ def test_a_film_has_its_pictures_its_sound_and_its_length(tmp_path):
     heard = sound(path)
     assert 1e-4 < np.abs(heard).max() < 10 ** (-1 / 20)
     assert [one.name for one in tmp_path.iterdir()] == ["small.mp4"]
+
+
+@pytest.mark.capability("AA-002")
+def test_a_minute_of_the_same_seed_has_the_same_pictures(tmp_path):
+    options = FilmOptions(seconds=60.0, size=(64, 36), frames_per_second=1.0)
+    prints = []
+    for number in range(2):
+        world, folder = bio.load("mating", seed=3), tmp_path / str(number)
+        film_world(world, tmp_path / f"{number}.mp4", options, frames=folder, say=quiet)
+        frames = sorted(folder.iterdir())
+        assert len(frames) == 60
+        prints.append([hashlib.sha256(one.read_bytes()).hexdigest() for one in frames])
+    assert prints[0] == prints[1]
+    assert len(set(prints[0])) == 60, "something moves in every second"
 
 
 def test_an_interrupted_film_goes_on_and_ends_the_same(tmp_path):

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import bioscope as bio
+from bioscope.geometry.transforms import composed
 
 
 class Leaf(bio.Population):
@@ -182,6 +183,47 @@ def test_kelp_bends_most_at_its_tips_and_stands_up_again():
     world.set("current", "speed", 0.0)
     world.run(seconds=12)
     assert bend()[1] == pytest.approx(upright[1], abs=4)
+
+
+@pytest.mark.capability("AA-003")
+def test_weed_leans_and_plankton_drifts_the_more_the_faster_the_water():
+    world = bio.World(seed=4, dt=1 / 30)
+    world.environment.water()
+    world.environment.terrain(np.full((2, 2), -4.0), spacing=20.0)
+    current = bio.Current(direction=(1, 0, 0), speed=0.0, surge=0.0, turbulence=0.0)
+    world.environment.add(current, "current")
+    world.add(bio.Plants("kelp", 4, flutter=0.0))
+    world.add(bio.Plankton(200, low=(-8.0, -3.0, -2.0), high=(8.0, -1.0, 2.0)))
+
+    def tips():
+        """Places of the highest joints, metres."""
+        found = []
+        for batch in world.scene.batches:
+            if len(batch.ids) and len(batch.poses):
+                joints = composed(batch.transforms[:, None], batch.poses)[..., :3]
+                # Those that are highest while the water rests.
+                highest.setdefault(batch.name, joints[..., 1].argmax(axis=1))
+                found += [one[row] for one, row in zip(joints, highest[batch.name], strict=True)]
+        return np.array(found)
+
+    def plankton():
+        return next(np.array(one.positions) for one in world.scene.points)
+
+    highest = {}
+    speeds, leans, drifts = np.array([0.0, 0.15, 0.3, 0.45, 0.6]), [], []
+    for speed in speeds:
+        world.set("current", "speed", float(speed))
+        world.run(seconds=6)
+        leans.append(tips())
+        before = plankton()
+        world.run(seconds=1)
+        drifts.append(np.median(plankton() - before, axis=0))
+    along = [np.mean(lean[:, 0] - leans[0][:, 0]) for lean in leans]
+    assert np.corrcoef(speeds, along)[0, 1] > 0.9
+    assert along[-1] > 0.2, "metres"
+    drifts = np.array(drifts)
+    assert np.corrcoef(speeds, drifts[:, 0])[0, 1] > 0.99
+    assert drifts[-1, 0] == pytest.approx(0.6, rel=0.15)
 
 
 @pytest.mark.parametrize(
