@@ -1,11 +1,10 @@
 """Figures of the muscle-driven fish: a step, replayed fishes, the same springs in MuJoCo."""
 
 import importlib.util
-import time
 from collections.abc import Iterator
 
 import bioscope as bio
-from bioscope.bench import Figure
+from bioscope.bench import Figure, best_of
 
 COUNT = 256
 GROUP = 8
@@ -16,12 +15,7 @@ TICK = 1 / 60
 def seconds_per_tick(shoal: bio.fish.Shoal, dt: float, ticks: int) -> float:
     """Return the best time of a tick in several runs."""
     shoal.step(dt, 2)
-    best = float("inf")
-    for _ in range(5):
-        start = time.perf_counter()
-        shoal.step(dt, ticks)
-        best = min(best, (time.perf_counter() - start) / ticks)
-    return best
+    return best_of(5, lambda: shoal.step(dt, ticks)) / ticks
 
 
 def steps() -> Iterator[Figure]:
@@ -33,9 +27,7 @@ def steps() -> Iterator[Figure]:
     tank = bio.fish.Tank("anthias")
     tank.swim(tank.cruise)
     tank.step(steps=100)
-    start = time.perf_counter()
-    tank.step(steps=5000)
-    alone = (time.perf_counter() - start) / 5000
+    alone = best_of(1, lambda: tank.step(steps=5000)) / 5000
     yield Figure("fish.alone", alone * 1e6, "us", note="one body in f64, one core")
 
 
@@ -54,11 +46,7 @@ def mixed() -> Iterator[Figure]:
     world.environment.water(surface=30.0)
     world.add(bio.FishSchool("anthias", 10_000, center=(0, 0, 0), replayed=1.0, driven=100))
     world.step(20)
-    best = float("inf")
-    for _ in range(5):
-        start = time.perf_counter()
-        world.step(10)
-        best = min(best, (time.perf_counter() - start) / 10)
+    best = best_of(5, lambda: world.step(10)) / 10
     note = "9,900 replayed and 100 by muscles, with Reynolds' rules, at 60 ticks/s"
     yield Figure("fish.mixed", 1 / best, "ticks/s", better="higher", note=note)
 

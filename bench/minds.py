@@ -5,7 +5,7 @@ import time
 from collections.abc import Iterator
 
 import bioscope as bio
-from bioscope.bench import Figure
+from bioscope.bench import Figure, best_of
 from bioscope.populations.place import Habitat, Rectangle
 
 DENSITY = 2.0
@@ -22,13 +22,8 @@ def microseconds(count: int, kind: str) -> float:
     )
     world.add(bio.RoamingFish("anthias", count, center=(0, 0, 0), radius=radius, mind=mind))
     world.step(10)
-    best = float("inf")
     ticks = max(3, 3000 // count)
-    for _ in range(5):
-        start = time.perf_counter()
-        world.step(ticks)
-        best = min(best, time.perf_counter() - start)
-    return 1e6 * best / ticks / count
+    return 1e6 * best_of(5, lambda: world.step(ticks)) / ticks / count
 
 
 def minds() -> Iterator[Figure]:
@@ -87,12 +82,7 @@ def seconds_per_tick(count: int, radius: float, reaction: float = REACTION) -> f
     """Return the time of a tick (best of several) after the fishes have taken their places."""
     world = reef(count, radius, reaction)
     world.step(60)
-    best = float("inf")
-    for _ in range(5):
-        start = time.perf_counter()
-        world.step(10)
-        best = min(best, (time.perf_counter() - start) / 10)
-    return best
+    return best_of(5, lambda: world.step(10)) / 10
 
 
 def full() -> Iterator[Figure]:
@@ -131,11 +121,7 @@ def scene() -> Iterator[Figure]:
     """The benchmark scene of X. Tu 1996, section 8.3, which ran at about 4 frames per second."""
     world = published_scene()
     world.step(60)
-    best = float("inf")
-    for _ in range(5):
-        start = time.process_time()
-        world.step(100)
-        best = min(best, (time.process_time() - start) / 100)
+    best = best_of(5, lambda: world.step(100), time.process_time) / 100
     note = "10 fishes with muscles, senses and minds, 15 morsels, 4 cylinders; of one core's time"
     yield Figure("fish.scene", 1 / best, "ticks/s", target=240, better="higher", note=note)
 

@@ -10,17 +10,7 @@ from pathlib import Path
 import numpy as np
 
 import bioscope as bio
-from bioscope.bench import Figure
-
-
-def best_of(rounds: int, work) -> float:
-    """Return the least seconds that `work` took."""
-    times = []
-    for _ in range(rounds):
-        start = time.perf_counter()
-        work()
-        times.append(time.perf_counter() - start)
-    return min(times)
+from bioscope.bench import Figure, best_of
 
 
 def tick() -> Iterator[Figure]:

@@ -1,26 +1,14 @@
 """Fishes asked for in ways that make no sense: the field is named, the world lives on."""
 
 import math
-import re
-from pathlib import Path
 
 import numpy as np
 import pytest
+from designs import DESIGN, SPECIES, changed
 
 import bioscope as bio
 
-SPECIES = Path(__file__).parents[2] / "crates/stage/bioscope_populations/species/anthias.toml"
 NAN, INF = math.nan, math.inf
-
-
-def changed(tmp_path: Path, old: str, new: str) -> str:
-    """Write the anthias's file with its first match of `old` replaced; return its path."""
-    text = SPECIES.read_text(encoding="utf-8")
-    other = re.sub(old, new, text, count=1, flags=re.M)
-    assert other != text
-    path = tmp_path / "mine.toml"
-    path.write_text(other, encoding="utf-8")
-    return str(path)
 
 
 def water() -> bio.World:
@@ -67,12 +55,31 @@ def water() -> bio.World:
 )
 def test_wrong_species_files_are_refused_by_the_name_of_the_field(tmp_path, old, new, message):
     world = water()
-    path = changed(tmp_path, old, new)
+    path = changed(SPECIES, tmp_path / "mine.toml", old, new)
     with pytest.raises(bio.BioscopeError, match=message) as refused:
         world.add(bio.RoamingFish(path, 1, center=(0, -3, 0)))
     assert "mine.toml" in str(refused.value), "the file is named"
     world.step(3)
     assert len(world.populations) == 1
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        (r"^step = .*$", "step = nan", "step"),
+        (r"^damping = .*$", "damping = -1.0", "damping"),
+        (r"^damping = .*$", "", "damping"),
+        (r"^damping = ", "dumping = 1.0\ndamping = ", "dumping"),
+        (r"^shortening = .*$", "shortening = 2.0", "shorten"),
+        (r"^stations = .*$", "stations = [0.5, 0.4, 0.3, 0.2, 0.1]", "stations"),
+        (r"^masses = .*$", "masses = [1.0, 1.0, 0.0, 1.0, 1.0, 1.0, 1.0]", "mass"),
+        (r"^friction = .*$", "friction = inf", "friction"),
+    ],
+)
+def test_wrong_designs_are_refused_by_the_name_of_the_field(tmp_path, old, new, message):
+    preset = changed(DESIGN, tmp_path / "mine.toml", old, new)
+    with pytest.raises(bio.BioscopeError, match=message):
+        bio.fish.Tank("anthias", preset=preset)
 
 
 @pytest.mark.parametrize("text", ["", "name = ", "\0\0", "[[[[", "name = 5", "é" * 9999])
@@ -207,3 +214,24 @@ def test_a_world_goes_on_when_a_mind_that_failed_has_recovered():
     world.step(30)
     assert world.tick == failed + 30
     assert all(np.isfinite(batch.positions).all() for batch in world.scene.batches)
+
+
+def test_what_a_tank_cannot_do_is_refused_by_name():
+    with pytest.raises(bio.BioscopeError, match="known"):
+        bio.fish.Tank("unicorn")
+    with pytest.raises(bio.BioscopeError, match="preset"):
+        bio.fish.Tank("anthias", preset="wrong")
+    for wrong in ({"dt": NAN}, {"dt": -1}, {"length": 0}, {"water": -1}):
+        with pytest.raises(bio.BioscopeError):
+            bio.fish.Tank("anthias", **wrong)
+    tank = bio.fish.Tank("anthias")
+    with pytest.raises(bio.BioscopeError, match="activations"):
+        tank.step(np.zeros(11))
+    with pytest.raises(bio.BioscopeError, match="activations"):
+        tank.step(np.full(12, NAN))
+    with pytest.raises(bio.BioscopeError, match="speed"):
+        tank.swim(INF)
+    with pytest.raises(bio.BioscopeError, match="radians"):
+        tank.turn(90)
+    tank.step()
+    assert np.isfinite(tank.nodes).all()
