@@ -6,6 +6,7 @@ pub mod catalog;
 pub mod drifters;
 pub mod fish;
 pub mod fishing;
+mod kept;
 mod names;
 pub mod placement;
 pub mod plants;

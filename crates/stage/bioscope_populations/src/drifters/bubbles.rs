@@ -3,12 +3,13 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use bioscope_core::{
-    Error, Event, Id, Parameters, Purpose, Result, SoundEvent, Value, Vec3, math, parameters, state,
+    Error, Event, Id, Purpose, Result, SoundEvent, Value, Vec3, math, parameters, state,
 };
 use bioscope_geometry::Points;
 use bioscope_world::{Growth, Moment, Population, Publication, View};
 use serde::{Deserialize, Serialize};
 
+use crate::kept::{parameters_in, saved_as_state};
 use crate::names::free_name;
 use crate::placement::{Area, Habitat, Site};
 
@@ -333,20 +334,7 @@ impl Population for Bubbles {
         self.state.bubbles.len()
     }
 
-    fn save(&self) -> Result<Vec<u8>> {
-        Ok(state::to_bytes(&self.state))
-    }
+    saved_as_state!();
 
-    fn restore(&mut self, bytes: &[u8]) -> Result<()> {
-        *self = Self::from_saved(bytes)?;
-        Ok(())
-    }
-
-    fn parameters(&self) -> Option<&dyn Parameters> {
-        Some(&self.state.options.parameters)
-    }
-
-    fn parameters_mut(&mut self) -> Option<&mut dyn Parameters> {
-        Some(&mut self.state.options.parameters)
-    }
+    parameters_in!(state.options.parameters);
 }

@@ -1,8 +1,6 @@
 use std::sync::Arc;
 
-use bioscope_core::{
-    Error, Event, Id, Parameters, Purpose, Random, Result, Vec3, math, parameters, state,
-};
+use bioscope_core::{Error, Event, Id, Purpose, Random, Result, Vec3, math, parameters, state};
 use bioscope_geometry::Points;
 use bioscope_world::{
     Environment, Growth, Moment, Order, Population, Publication, View, no_such_order,
@@ -10,6 +8,7 @@ use bioscope_world::{
 use serde::{Deserialize, Serialize};
 
 use crate::bites::{EATEN, Gone, bitten};
+use crate::kept::{parameters_in, saved_as_state};
 use crate::names::free_name;
 use crate::suction::Mouths;
 
@@ -347,22 +346,9 @@ impl Population for Plankton {
         self.state.drifters.len()
     }
 
-    fn save(&self) -> Result<Vec<u8>> {
-        Ok(state::to_bytes(&self.state))
-    }
+    saved_as_state!();
 
-    fn restore(&mut self, bytes: &[u8]) -> Result<()> {
-        *self = Self::from_saved(bytes)?;
-        Ok(())
-    }
-
-    fn parameters(&self) -> Option<&dyn Parameters> {
-        Some(&self.state.options.parameters)
-    }
-
-    fn parameters_mut(&mut self) -> Option<&mut dyn Parameters> {
-        Some(&mut self.state.options.parameters)
-    }
+    parameters_in!(state.options.parameters);
 
     fn default_name(&self) -> String {
         self.state.options.species.clone()

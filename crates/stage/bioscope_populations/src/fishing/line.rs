@@ -11,6 +11,7 @@ use serde::{Deserialize, Serialize};
 
 use super::tackle;
 use crate::bites::{BITTEN, EATEN, HOOKED, bitten};
+use crate::kept::{parameters_in, saved_as_state};
 use crate::names::free_name;
 
 /// Species of line and hook in the scene.
@@ -269,22 +270,9 @@ impl Population for FishingLine {
         1
     }
 
-    fn save(&self) -> Result<Vec<u8>> {
-        Ok(state::to_bytes(&self.state))
-    }
+    saved_as_state!();
 
-    fn restore(&mut self, bytes: &[u8]) -> Result<()> {
-        *self = Self::from_saved(bytes)?;
-        Ok(())
-    }
-
-    fn parameters(&self) -> Option<&dyn Parameters> {
-        Some(&self.state.options.parameters)
-    }
-
-    fn parameters_mut(&mut self) -> Option<&mut dyn Parameters> {
-        Some(&mut self.state.options.parameters)
-    }
+    parameters_in!(state.options.parameters);
 
     fn statistics(&self) -> BTreeMap<String, f64> {
         let caught = f64::from(u8::from(self.state.landed));

@@ -14,6 +14,8 @@ mod inspection;
 mod options;
 mod population;
 mod saved;
+mod settings;
+mod show;
 #[cfg(test)]
 mod tests;
 mod threats;

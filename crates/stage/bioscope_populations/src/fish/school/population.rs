@@ -1,13 +1,10 @@
-use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use bioscope_core::{
-    Annotation, Error, Event, Id, Mark, NOTHING, Parameter, Parameters, Purpose, Quat, Result, Vec3,
-};
+use bioscope_core::{Id, NOTHING, Parameters, Purpose, Quat, Result, Vec3};
 use bioscope_crowds::{Flock, Goal, Home, Surroundings, statistics};
-use bioscope_geometry::{Batch, Transform};
-use bioscope_motion::undulation::{Spine, spine_pose};
+use bioscope_geometry::Transform;
+use bioscope_motion::undulation::Spine;
 use bioscope_world::{Growth, Inspection, Order, Population, Publication, View, no_such_order};
 use rayon::prelude::*;
 
@@ -17,9 +14,8 @@ use super::fish::{Fish, Step};
 use super::threats::Lookout;
 use super::{FishSchoolOptions, SchoolParameters};
 use crate::animals::way_out;
-use crate::bites::{CAUGHT, Gone, bitten};
+use crate::bites::{Gone, bitten};
 use crate::fish::FishForm;
-use crate::names::free_name;
 use crate::suction::Mouths;
 
 const BIRTH: Purpose = Purpose::new("birth of a schooling fish");
@@ -29,7 +25,7 @@ const HEADINGS: f32 = 0.5;
 /// Seconds for which the pull of a mouth acts on a fish that it draws in: a flock has no inertia to resist with.
 const CARRIED: f32 = 0.1;
 /// Fishes that one task handles.
-const TASK: usize = 64;
+pub(super) const TASK: usize = 64;
 /// Ticks from one count of groups to the next.
 const COUNT_INTERVAL: u64 = 30;
 /// Distance in body lengths below which two fishes belong to one group.
@@ -104,7 +100,7 @@ impl FishSchool {
         Transform::new(self.flock.positions()[index], self.flock.rotation(index), scale)
     }
 
-    fn body_length(&self) -> f32 {
+    pub(super) fn body_length(&self) -> f32 {
         self.flock.parameters.body_length
     }
 
@@ -228,7 +224,7 @@ impl FishSchool {
         self.groups = groups;
     }
 
-    fn replays(&self) -> bool {
+    pub(super) fn replays(&self) -> bool {
         self.options.parameters.replayed >= 0.5
     }
 
@@ -245,84 +241,9 @@ impl FishSchool {
         self.bodies.advance(&mut members, parameters, view.environment, view.moment.dt)
     }
 
-    /// Writes the pose of a fish and returns where it is.
-    fn pose(&self, index: usize, fish: &Fish, pose: &mut [Transform]) -> Transform {
-        if !self.replays() {
-            spine_pose(&self.spine, &fish.swim, pose);
-            return self.placement(index);
-        }
-        let speed = self.flock.velocities()[index].length() / (self.body_length() * fish.scale);
-        let who = (self.flock.ids()[index], fish, speed);
-        self.bodies.pose(&self.spine, who, pose).unwrap_or_else(|| self.placement(index))
-    }
-
     fn note_wishes(&mut self) {
         let shown = (self.options.parameters.annotated as usize).min(self.fishes.len());
         self.wishes = (0..shown).map(|index| self.flock.request(index)).collect();
-    }
-
-    fn batch(&self, name: String) -> Batch {
-        let species = &self.options.species;
-        let mut batch = Batch::new(
-            name,
-            species.name.as_str(),
-            self.form.mesh.clone(),
-            self.form.material.clone(),
-        );
-        batch.alive = true;
-        batch.ids = self.flock.ids().to_vec();
-        batch.velocities = self.fishes.iter().map(|fish| fish.motion).collect();
-        batch.tints = self.fishes.iter().map(|fish| fish.tint).collect();
-        let joints = self.form.spine.joint_count();
-        batch.poses = vec![Transform::IDENTITY; joints * self.fishes.len()];
-        batch.transforms = vec![Transform::IDENTITY; self.fishes.len()];
-        let bodies = batch.poses.par_chunks_mut(joints).zip(&mut batch.transforms);
-        bodies.zip(&self.fishes).enumerate().with_min_len(TASK).for_each(
-            |(index, ((pose, placement), fish))| {
-                *placement = self.pose(index, fish, pose);
-            },
-        );
-        batch
-    }
-
-    fn annotate(&self, annotations: &mut Vec<Annotation>) {
-        let reach = 3.0 * self.body_length();
-        for (index, wish) in self.wishes.iter().enumerate().take(self.fishes.len()) {
-            let from = self.flock.positions()[index];
-            let mut show = |role: &str, to: Vec3| {
-                let subject = self.flock.ids()[index];
-                let mark = Mark::Line { from, to };
-                annotations.push(Annotation { subject, role: role.to_owned(), mark });
-            };
-            show("heading", from + self.flock.headings()[index] * reach);
-            show(self.fishes[index].mode.name(), from + *wish * reach);
-        }
-    }
-
-    fn events(&self, publication: &mut Publication) {
-        let moment = publication.moment;
-        publication.events.extend(self.caught.iter().map(|gone| gone.event(CAUGHT, &moment)));
-        let mut happen =
-            |kind: &'static str, subject: Id, object: Option<Id>, groups: Option<usize>| {
-                let data = groups.map(|groups| (String::from("groups"), (groups as f64).into()));
-                publication.events.push(Event {
-                    tick: moment.tick,
-                    time: moment.time,
-                    kind: Cow::Borrowed(kind),
-                    subject,
-                    object,
-                    data: data.into_iter().collect(),
-                });
-            };
-        for (fish, &id) in self.fishes.iter().zip(self.flock.ids()) {
-            if fish.startled_by != NOTHING {
-                happen("startled", id, Some(fish.startled_by), None);
-            }
-        }
-        if let (Some(before), Some(&first)) = (self.regrouped_from, self.flock.ids().first()) {
-            let kind = if self.groups > before { "split" } else { "rejoined" };
-            happen(kind, first, None, Some(self.groups));
-        }
     }
 }
 
@@ -404,10 +325,7 @@ impl Population for FishSchool {
     }
 
     fn publish(&self, publication: &mut Publication) -> Result<()> {
-        let name = free_name(&publication.scene, &self.options.species.name);
-        publication.scene.batches.push(self.batch(name));
-        self.annotate(&mut publication.scene.annotations);
-        self.events(publication);
+        self.show(publication);
         Ok(())
     }
 
@@ -443,33 +361,5 @@ impl Population for FishSchool {
 
     fn default_name(&self) -> String {
         self.options.species.name.clone()
-    }
-}
-
-/// Those of the flock and those of the school, as one set.
-impl Parameters for FishSchool {
-    fn descriptions(&self) -> Vec<Parameter> {
-        let mut all = self.flock.parameters.descriptions();
-        all.append(&mut self.options.parameters.descriptions());
-        all
-    }
-
-    fn get(&self, name: &str) -> Option<f64> {
-        self.flock.parameters.get(name).or_else(|| self.options.parameters.get(name))
-    }
-
-    fn set(&mut self, name: &str, value: f64) -> Result<()> {
-        if self.options.parameters.get(name).is_some() {
-            return self.options.parameters.set(name, value);
-        }
-        if self.flock.parameters.get(name).is_none() {
-            let known = self.descriptions().into_iter().map(|one| one.name).collect();
-            return Err(Error::Unknown { kind: "parameter", name: name.to_owned(), known });
-        }
-        let mut changed = self.flock.parameters.clone();
-        changed.set(name, value)?;
-        changed.check()?;
-        self.flock.parameters = changed;
-        Ok(())
     }
 }

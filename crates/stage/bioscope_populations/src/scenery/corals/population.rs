@@ -2,13 +2,14 @@ use std::borrow::Cow;
 use std::sync::Arc;
 
 use bioscope_core::{
-    Error, Id, Parameters, Purpose, Quat, Random, Result, SoundEvent, Vec3, math, parameters, state,
+    Error, Id, Purpose, Quat, Random, Result, SoundEvent, Vec3, math, parameters, state,
 };
 use bioscope_geometry::{Batch, Material, Mesh, Obstacle, Transform};
 use bioscope_world::{Environment, Growth, Inspection, Moment, Population, Publication};
 use serde::{Deserialize, Serialize};
 
 use super::kinds::CoralKind;
+use crate::kept::parameters_in;
 use crate::names::free_name;
 use crate::placement::{Habitat, Site};
 
@@ -317,13 +318,7 @@ impl Population for Corals {
         Ok(())
     }
 
-    fn parameters(&self) -> Option<&dyn Parameters> {
-        Some(&self.state.options.parameters)
-    }
-
-    fn parameters_mut(&mut self) -> Option<&mut dyn Parameters> {
-        Some(&mut self.state.options.parameters)
-    }
+    parameters_in!(state.options.parameters);
 
     fn inspect(&self, individual: Id) -> Option<Inspection> {
         let colony = self.state.colonies.iter().find(|one| one.id == individual)?;
