@@ -21,7 +21,7 @@ pub use eye::{Eye, EyeParameters, eye_camera};
 pub use hearing::{Hearing, HearingParameters};
 pub use lateral_line::LateralLine;
 pub use light::Light;
-pub use outlook::{Kind, Memory, Outlook, Thing};
+pub use outlook::{Memory, Outlook, Reach, Register, Shortlist, Thing};
 pub use sense::{Sense, restore};
 pub use sight::{Sight, SightParameters};
 pub use smell::{Smell, SmellParameters};

@@ -2,7 +2,8 @@
 //!
 //! While a mouth is open, everything free and small enough before it is accelerated towards it, the more the nearer and the
 //! smaller it is (the vacuum force of Tu, "Artificial Animals for Computer Animation", 1996, sections 6.4.4 and 6.5.1, with a range and a
-//! strength of our choice). What gets into contact is bitten and swallowed; see [`bites`](crate::bites).
+//! strength of our choice). What gets into contact is bitten and swallowed; see [`bites`](crate::bites). The mouth's owner
+//! is not pulled in return: it is the water that it takes in, and lets out behind its gills, that carries the momentum.
 
 use bioscope_core::{Id, Vec3};
 use bioscope_geometry::Mouth;
@@ -34,14 +35,23 @@ impl<'a> Mouths<'a> {
         Self { sorted, reach: RANGE * longest }
     }
 
+    /// Whether any mouth may draw in something within `radius` metres of this place.
+    pub fn reach(&self, place: Vec3, radius: f32) -> bool {
+        self.near(place.x, radius).any(|one| one.position.distance(place) <= self.reach + radius)
+    }
+
     /// Acceleration of a free thing of this size (metres) at this place by all mouths but its own, m/s².
     pub fn pull(&self, id: Id, place: Vec3, size: f32) -> Vec3 {
-        let first = self.sorted.partition_point(|one| one.position.x < place.x - self.reach);
-        let near = self.sorted[first..].iter();
-        near.take_while(|one| one.position.x <= place.x + self.reach)
-            .filter(|one| one.owner != id)
-            .map(|one| pull(one, place, size))
-            .sum()
+        let near = self.near(place.x, 0.0).filter(|one| one.owner != id);
+        near.map(|one| pull(one, place, size)).sum()
+    }
+
+    /// Those whose range comes within `radius` metres of a place along x.
+    fn near(&self, x: f32, radius: f32) -> impl Iterator<Item = &'a Mouth> + '_ {
+        let reach = self.reach + radius;
+        let first = self.sorted.partition_point(|one| one.position.x < x - reach);
+        let near = self.sorted[first..].iter().copied();
+        near.take_while(move |one| one.position.x <= x + reach)
     }
 }
 

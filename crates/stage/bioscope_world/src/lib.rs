@@ -4,6 +4,7 @@
 //! sounds and events and change nothing. The tick knows two contracts, [`Population`] and
 //! [`Field`](bioscope_dynamics::Field), and names no species.
 
+mod common;
 mod environment;
 mod input;
 mod order;
@@ -14,6 +15,7 @@ mod save;
 mod tick;
 mod world;
 
+pub use common::Common;
 pub use environment::{Environment, EnvironmentParameters};
 pub use input::{Change, Input, Recording};
 pub use order::{Order, Steering};

@@ -4,7 +4,7 @@ use std::sync::Arc;
 use bioscope_core::{Error, Event, Id, Parameters, Purpose, Random, Result, SoundEvent, Value};
 use bioscope_geometry::{Camera, Scene};
 
-use crate::{Environment, Order, Publication};
+use crate::{Common, Environment, Order, Publication};
 
 /// The one contract that the tick knows: a batch of individuals that implements the five verbs.
 ///
@@ -133,6 +133,8 @@ pub struct View<'a> {
     pub events: &'a [Event],
     /// Terrain, water, light, fields.
     pub environment: &'a Environment,
+    /// What populations work out together.
+    pub common: &'a Common,
 }
 
 /// What the populations may do while they grow, one after the other.

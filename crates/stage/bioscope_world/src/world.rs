@@ -6,7 +6,8 @@ use bioscope_dynamics::Field;
 use bioscope_geometry::{Rig, Scene};
 
 use crate::{
-    Change, Environment, Growth, Input, Inspection, Moment, Order, Population, Recording, View,
+    Change, Common, Environment, Growth, Input, Inspection, Moment, Order, Population, Recording,
+    View,
 };
 
 /// One world: time, environment and everything that lives in it.
@@ -36,6 +37,7 @@ pub struct World {
     /// What has happened since the start, or since an observer took it.
     pub(crate) events: Vec<Event>,
     recorder: Option<Recorder>,
+    common: Common,
 }
 
 /// A population under its name in the world.
@@ -91,6 +93,7 @@ impl World {
             latest: Vec::new(),
             events: Vec::new(),
             recorder: None,
+            common: Common::default(),
         })
     }
 
@@ -206,6 +209,7 @@ impl World {
             sounds: &self.sounds,
             events: &self.latest,
             environment: &self.environment,
+            common: &self.common,
         }
     }
 

@@ -20,18 +20,24 @@ pub trait Dispatch: Real {
     ) -> Result<()>;
 }
 
-impl Dispatch for f64 {
-    fn step(
-        mechanics: &Mechanics,
-        body: &mut Body<Self>,
-        flow: &[Triple<Self>],
-        push: &[Triple<Self>],
-        dt: f64,
-        work: &mut Workspace<Self>,
-    ) -> Result<()> {
-        mechanics.step(body, flow, push, dt, work)
-    }
+macro_rules! alone {
+    ($($number:ident),*) => {$(
+        impl Dispatch for $number {
+            fn step(
+                mechanics: &Mechanics,
+                body: &mut Body<Self>,
+                flow: &[Triple<Self>],
+                push: &[Triple<Self>],
+                dt: f64,
+                work: &mut Workspace<Self>,
+            ) -> Result<()> {
+                mechanics.step(body, flow, push, dt, work)
+            }
+        }
+    )*};
 }
+
+alone!(f32, f64);
 
 impl Dispatch for Lanes {
     fn step(

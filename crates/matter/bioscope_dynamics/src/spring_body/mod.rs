@@ -2,7 +2,7 @@
 //! pushes water.
 //!
 //! [`fish`](fish::fish) builds the fish of 23 nodes, [`Mechanics`] advances it. A body is computed in [`Real`]:
-//! `f64` for one alone, [`Lanes`] for eight side by side.
+//! `f64` or `f32` for one alone, [`Lanes`] for eight side by side.
 
 mod anatomy;
 mod dispatch;

@@ -1,6 +1,7 @@
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
-/// The number a body is computed in: `f64` for one body alone, [`Lanes`] for eight bodies at once.
+/// The number a body is computed in: `f64` or `f32` for one body alone, [`Lanes`] for eight bodies at once, each with the
+/// bits that it has in `f32` alone.
 pub trait Real:
     Copy
     + Default
@@ -33,33 +34,39 @@ pub trait Real:
     fn min(self, other: Self) -> Self;
 }
 
-impl Real for f64 {
-    const LANES: usize = 1;
-    #[inline(always)]
-    fn splat(value: f64) -> Self {
-        value
-    }
-    #[inline(always)]
-    fn lane(self, _lane: usize) -> f64 {
-        self
-    }
-    #[inline(always)]
-    fn set_lane(&mut self, _lane: usize, value: f64) {
-        *self = value;
-    }
-    #[inline(always)]
-    fn sqrt(self) -> Self {
-        self.sqrt()
-    }
-    #[inline(always)]
-    fn max(self, other: Self) -> Self {
-        if self > other { self } else { other }
-    }
-    #[inline(always)]
-    fn min(self, other: Self) -> Self {
-        if self < other { self } else { other }
-    }
+macro_rules! alone {
+    ($($number:ident),*) => {$(
+        impl Real for $number {
+            const LANES: usize = 1;
+            #[inline(always)]
+            fn splat(value: f64) -> Self {
+                value as Self
+            }
+            #[inline(always)]
+            fn lane(self, _lane: usize) -> f64 {
+                self.into()
+            }
+            #[inline(always)]
+            fn set_lane(&mut self, _lane: usize, value: f64) {
+                *self = value as Self;
+            }
+            #[inline(always)]
+            fn sqrt(self) -> Self {
+                self.sqrt()
+            }
+            #[inline(always)]
+            fn max(self, other: Self) -> Self {
+                if self > other { self } else { other }
+            }
+            #[inline(always)]
+            fn min(self, other: Self) -> Self {
+                if self < other { self } else { other }
+            }
+        }
+    )*};
 }
+
+alone!(f32, f64);
 
 /// One `f32` for each of eight bodies, which are computed side by side. Every operation is a single
 /// correctly rounded one per lane, so a body's motion does not depend on its lane or its companions.

@@ -15,10 +15,25 @@ pub struct Frame {
 impl Frame {
     /// The frame of these nodes.
     pub fn of(node: impl Fn(usize) -> Vec3) -> Self {
-        let corner = |at: usize| node(1 + at) + node(5 + at) + node(9 + at);
-        let ring = |first: usize| (first..first + 4).map(&node).sum::<Vec3>();
-        let ahead = (ring(1) - ring(9)).normalize_or(Vec3::Z);
-        let rise = corner(0) + corner(3) - corner(1) - corner(2);
+        let (ahead, rise) = Self::axes(node, |a, b| a + b, |a, b| a - b);
+        Self::along(ahead, rise)
+    }
+
+    /// The ways from ring 3 to ring 1 and from the lower to the upper nodes, as multiples; of one body or of several.
+    pub(super) fn axes<T: Copy>(
+        node: impl Fn(usize) -> T,
+        add: impl Fn(T, T) -> T,
+        sub: impl Fn(T, T) -> T,
+    ) -> (T, T) {
+        let corner = |at: usize| add(add(node(1 + at), node(5 + at)), node(9 + at));
+        let ring = |first: usize| (1..4).fold(node(first), |sum, at| add(sum, node(first + at)));
+        let rise = sub(sub(add(corner(0), corner(3)), corner(1)), corner(2));
+        (sub(ring(1), ring(9)), rise)
+    }
+
+    /// The frame that looks along `ahead` and whose upper side is that of `rise`, of any lengths.
+    pub(super) fn along(ahead: Vec3, rise: Vec3) -> Self {
+        let ahead = ahead.normalize_or(Vec3::Z);
         let left = rise.cross(ahead).normalize_or(Vec3::X);
         Self { ahead, left, up: ahead.cross(left) }
     }

@@ -1,11 +1,16 @@
 use bioscope_core::Vec3;
 use bioscope_dynamics::spring_body::fish::{MUSCLES, NODES};
-use bioscope_dynamics::spring_body::{Body, Dispatch, Triple, Workspace, signed_volume};
+use bioscope_dynamics::spring_body::{
+    Body, Dispatch, Lanes, Real, Triple, Workspace, signed_volume,
+};
 use serde::{Deserialize, Serialize};
 
 use super::frame::Frame;
 use super::model::{FishDesign, FishModel};
 use super::motor::{Effort, Feeling, Motor};
+
+/// Most bodies that one number speaks for.
+const WIDEST: usize = Lanes::LANES;
 
 /// What a fish is beside its nodes.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -62,6 +67,18 @@ impl<R: Dispatch> Group<R> {
         Frame::of(|node| self.node(lane, node).map(|axis| axis as f32).into())
     }
 
+    /// The frames of all members, of which the sums are made side by side.
+    fn frames(&self) -> [Frame; WIDEST] {
+        let add = |a: Triple<R>, b: Triple<R>| [a[0] + b[0], a[1] + b[1], a[2] + b[2]];
+        let sub = |a: Triple<R>, b: Triple<R>| [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
+        let (ahead, rise) = Frame::axes(|node| self.body.position[node], add, sub);
+        let of = |axes: &Triple<R>, lane: usize| axes.map(|axis| axis.lane(lane) as f32).into();
+        std::array::from_fn(|lane| {
+            let lane = lane.min(R::LANES - 1);
+            Frame::along(of(&ahead, lane), of(&rise, lane))
+        })
+    }
+
     /// Mean over the mass: of the places, or of the velocities.
     pub fn mean(&self, model: &FishModel, lane: usize, of: &[Triple<R>]) -> [f64; 3] {
         let mut sum = [0.0; 3];
@@ -71,6 +88,19 @@ impl<R: Dispatch> Group<R> {
             }
         }
         sum
+    }
+
+    /// The same for all members: of each axis one value per lane.
+    fn means(&self, model: &FishModel, of: &[Triple<R>]) -> [[f64; WIDEST]; 3] {
+        let mut sums = [[0.0; WIDEST]; 3];
+        for (value, mass) in of.iter().zip(&model.mechanics.anatomy.masses) {
+            for axis in 0..3 {
+                for (lane, sum) in sums[axis].iter_mut().enumerate().take(R::LANES) {
+                    *sum += mass * value[axis].lane(lane);
+                }
+            }
+        }
+        sums
     }
 
     /// Sets a body down at rest: its center of mass at the origin, turned as `rotation` says.
@@ -109,9 +139,10 @@ impl<R: Dispatch> Group<R> {
                 return;
             }
         }
+        let centers = self.means(model, &self.body.position);
         for lane in 0..self.members.len() {
             if self.is_whole(model, lane) {
-                self.center(model, lane);
+                self.center(lane, centers.map(|axis| axis[lane]));
             } else {
                 self.repair(model, lane);
             }
@@ -125,8 +156,11 @@ impl<R: Dispatch> Group<R> {
         desk: &mut Desk<R>,
     ) -> bioscope_core::Result<()> {
         let mut wanted = [R::splat(0.0); MUSCLES];
-        for lane in 0..self.members.len() {
-            let Effort { contraction, fins } = self.drive(model, lane, dt);
+        let frames = self.frames();
+        let velocities = self.means(model, &self.body.velocity);
+        for (lane, member) in self.members.iter_mut().enumerate() {
+            let velocity = velocities.map(|axis| axis[lane]);
+            let Effort { contraction, fins } = drive(member, model, (frames[lane], velocity), dt);
             for (muscle, value) in wanted.iter_mut().zip(contraction) {
                 muscle.set_lane(lane, f64::from(value));
             }
@@ -142,23 +176,8 @@ impl<R: Dispatch> Group<R> {
         R::step(&model.mechanics, &mut self.body, &desk.flow, &desk.push, dt, &mut desk.work)
     }
 
-    /// What a member's controllers do.
-    fn drive(&mut self, model: &FishModel, lane: usize, dt: f64) -> Effort {
-        let frame = self.frame(lane);
-        let velocity = self.mean(model, lane, &self.body.velocity);
-        let member = &mut self.members[lane];
-        let through = [0, 1, 2].map(|axis| (velocity[axis] - member.flow[axis]) as f32);
-        let feeling = Feeling { frame, velocity: through.into() };
-        let mut effort = member.motor.advance(&model.design, &feeling, dt as f32);
-        if let Some(activation) = member.activation {
-            effort.contraction = activation;
-        }
-        effort
-    }
-
     /// Keeps the origin at the center of mass, so that numbers stay small.
-    fn center(&mut self, model: &FishModel, lane: usize) {
-        let center = self.mean(model, lane, &self.body.position);
+    fn center(&mut self, lane: usize, center: [f64; 3]) {
         for node in &mut self.body.position {
             for (axis, by) in node.iter_mut().zip(center) {
                 axis.set_lane(lane, axis.lane(lane) - by);
@@ -185,6 +204,22 @@ impl<R: Dispatch> Group<R> {
         self.put(model, lane, rotation);
         self.members[lane].repairs += 1;
     }
+}
+
+/// What the controllers of a fish of this frame do that moves with this velocity.
+fn drive(
+    member: &mut Individual,
+    model: &FishModel,
+    (frame, velocity): (Frame, [f64; 3]),
+    dt: f64,
+) -> Effort {
+    let through = [0, 1, 2].map(|axis| (velocity[axis] - member.flow[axis]) as f32);
+    let feeling = Feeling { frame, velocity: through.into() };
+    let mut effort = member.motor.advance(&model.design, &feeling, dt as f32);
+    if let Some(activation) = member.activation {
+        effort.contraction = activation;
+    }
+    effort
 }
 
 /// Puts the forces of the left and the right pectoral fin on the first three rings, so that they act at the fins'

@@ -2,7 +2,7 @@ use std::sync::Arc;
 
 use bioscope_core::{Error, Result, state};
 use bioscope_dynamics::spring_body::fish::{MUSCLES, NODES};
-use bioscope_dynamics::spring_body::{Lanes, Real, Triple};
+use bioscope_dynamics::spring_body::{Real, Triple};
 use serde::{Deserialize, Serialize};
 
 use super::individual::{Group, Individual};
@@ -20,7 +20,7 @@ struct Saved {
     contraction: Vec<f64>,
 }
 
-impl Swimmers<Lanes> {
+impl Swimmers<f32> {
     /// The complete state of a fish that is kept alone; its model is not part of it.
     ///
     /// # Errors
@@ -59,11 +59,11 @@ impl Swimmers<Lanes> {
     }
 }
 
-fn first(nodes: &[Triple<Lanes>]) -> Vec<[f64; 3]> {
+fn first(nodes: &[Triple<f32>]) -> Vec<[f64; 3]> {
     nodes.iter().map(|node| node.map(|axis| axis.lane(0))).collect()
 }
 
-fn set_first(nodes: &mut [Triple<Lanes>], values: &[[f64; 3]]) {
+fn set_first(nodes: &mut [Triple<f32>], values: &[[f64; 3]]) {
     for (axis, value) in nodes.iter_mut().flatten().zip(values.iter().flatten()) {
         axis.set_lane(0, *value);
     }

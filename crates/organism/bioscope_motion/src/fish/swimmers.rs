@@ -223,12 +223,21 @@ impl<R: Dispatch> Swimmers<R> {
 
     /// Changes the velocity of a whole fish by this many metres per second.
     pub fn kick(&mut self, index: usize, change: Vec3) {
-        let scale = self.time_unit / self.individual(index).length;
+        self.draw(index, |_| change);
+    }
+
+    /// Changes the velocity of each node by what `change` gives for its place, in metres and metres per second.
+    pub fn draw(&mut self, index: usize, change: impl Fn(Vec3) -> Vec3) {
         let lane = index % R::LANES;
-        for node in &mut self.groups[index / R::LANES].body.velocity {
+        let Group { body, members } = &mut self.groups[index / R::LANES];
+        let Individual { length, origin, .. } = &members[lane];
+        let scale = self.time_unit / length;
+        for (velocity, position) in body.velocity.iter_mut().zip(&body.position) {
+            let place = [0, 1, 2].map(|axis| origin[axis] + length * position[axis].lane(lane));
+            let change = change(place.map(|axis| axis as f32).into());
             for axis in 0..3 {
-                let value = node[axis].lane(lane) + f64::from(change[axis]) * scale;
-                node[axis].set_lane(lane, value);
+                let value = velocity[axis].lane(lane) + f64::from(change[axis]) * scale;
+                velocity[axis].set_lane(lane, value);
             }
         }
     }

@@ -1,60 +1,81 @@
+use std::sync::Arc;
+
 use bioscope_dynamics::spring_body::{Body, Lanes, Real};
 use rayon::prelude::*;
 
-use super::Swimmers;
 use super::individual::{Desk, Group};
+use super::{FishModel, Swimmers};
 
 /// Fishes side by side in one computation.
 const LANES: usize = <Lanes as Real>::LANES;
 
-impl Swimmers<Lanes> {
+impl Swimmers<f32> {
     /// Advances fishes that are kept one by one, each exactly as [`advance`](Self::advance) would, but neighbors of one
     /// kind side by side and all in parallel.
     pub fn advance_together(fishes: &mut [&mut Self], dt: f64) {
-        fishes.par_chunks_mut(LANES).for_each(|some| advance_some(some, dt));
+        fishes
+            .par_chunks_mut(LANES)
+            .for_each_init(|| None, |bench, some| advance_some(some, dt, bench));
     }
 
     /// Whether the two can be computed side by side.
     fn is_like(&self, other: &Self) -> bool {
-        std::sync::Arc::ptr_eq(&self.model, &other.model)
+        Arc::ptr_eq(&self.model, &other.model)
             && self.time_unit == other.time_unit
             && self.len() == 1
             && other.len() == 1
     }
 }
 
-fn advance_some(fishes: &mut [&mut Swimmers<Lanes>], dt: f64) {
+/// Where a thread computes fishes of a model side by side, used again for the next ones.
+struct Bench {
+    model: Arc<FishModel>,
+    group: Group<Lanes>,
+    desk: Desk<Lanes>,
+}
+
+impl Bench {
+    fn of(model: &Arc<FishModel>) -> Self {
+        Self { model: Arc::clone(model), group: Group::new(model), desk: Desk::new(model) }
+    }
+}
+
+fn advance_some(fishes: &mut [&mut Swimmers<f32>], dt: f64, bench: &mut Option<Bench>) {
     let Some((first, others)) = fishes.split_first() else { return };
     if others.is_empty() || !others.iter().all(|other| first.is_like(other)) {
         fishes.iter_mut().for_each(|fish| fish.advance(dt));
         return;
     }
-    let model = first.model.clone();
     let (steps, step) = first.steps(dt);
-    let mut group: Group<Lanes> = Group::new(&model);
+    // Who was computed in the other lanes before shall not matter.
+    let known =
+        bench.take().filter(|one| Arc::ptr_eq(&one.model, &first.model) && fishes.len() == LANES);
+    let Bench { model, group, desk } =
+        bench.insert(known.unwrap_or_else(|| Bench::of(&fishes[0].model)));
     for (lane, fish) in fishes.iter_mut().enumerate() {
         let alone = &mut fish.groups[0];
-        copy((&mut group.body, lane), (&alone.body, 0));
+        for_each_number((&mut group.body, &mut alone.body), |lanes, number| {
+            lanes.0[lane] = *number
+        });
         group.members.append(&mut alone.members);
     }
-    group.advance(&model, steps, step, &mut Desk::new(&model));
-    for (lane, (fish, member)) in fishes.iter_mut().zip(group.members).enumerate() {
+    group.advance(model, steps, step, desk);
+    for (lane, (fish, member)) in fishes.iter_mut().zip(group.members.drain(..)).enumerate() {
         let alone = &mut fish.groups[0];
-        copy((&mut alone.body, 0), (&group.body, lane));
+        for_each_number((&mut group.body, &mut alone.body), |lanes, number| {
+            *number = lanes.0[lane]
+        });
         alone.members.push(member);
     }
 }
 
-/// Copies one body of several.
-fn copy(to: (&mut Body<Lanes>, usize), from: (&Body<Lanes>, usize)) {
-    let ((mine, lane), (theirs, other)) = (to, from);
-    let places = mine.position.iter_mut().zip(&theirs.position);
-    for (mine, theirs) in places.chain(mine.velocity.iter_mut().zip(&theirs.velocity)) {
-        for (mine, theirs) in mine.iter_mut().zip(theirs) {
-            mine.set_lane(lane, theirs.lane(other));
-        }
-    }
-    for (mine, theirs) in mine.contraction.iter_mut().zip(&theirs.contraction) {
-        mine.set_lane(lane, theirs.lane(other));
-    }
+/// Calls `visit` with each number of several bodies and the like one of a single body.
+fn for_each_number(
+    (several, one): (&mut Body<Lanes>, &mut Body<f32>),
+    mut visit: impl FnMut(&mut Lanes, &mut f32),
+) {
+    let places = several.position.iter_mut().zip(&mut one.position);
+    let nodes = places.chain(several.velocity.iter_mut().zip(&mut one.velocity));
+    nodes.flat_map(|(several, one)| several.iter_mut().zip(one)).for_each(|(a, b)| visit(a, b));
+    several.contraction.iter_mut().zip(&mut one.contraction).for_each(|(a, b)| visit(a, b));
 }

@@ -1,5 +1,5 @@
 use std::collections::BTreeMap;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use bioscope_core::math::TAU;
 use bioscope_core::{
@@ -31,10 +31,21 @@ const LEVELING: f32 = 0.3;
 pub struct MuscleSwimmer {
     preset: String,
     physics: MusclePhysics,
-    fish: Swimmers,
+    fish: Swimmers<f32>,
     spine: Arc<Spine>,
     /// Rowing fins and the mouth, which none of the simulated muscles moves.
     swim: SwimState,
+    /// Where it is and how it moves, worked out of its nodes when asked for first.
+    motion: OnceLock<Motion>,
+}
+
+/// Where a fish is and how it moves over ground.
+#[derive(Clone, Copy, Debug)]
+struct Motion {
+    placement: Transform,
+    velocity: Vec3,
+    /// Metres.
+    length: f32,
 }
 
 impl MuscleSwimmer {
@@ -47,8 +58,8 @@ impl MuscleSwimmer {
         let cruise = f64::from(spine.gait().cruise);
         let mut fish = Swimmers::new(FishModel::named(preset)?, cruise)?;
         fish.add([0.0; 3], Quat::IDENTITY, f64::from(spine.length()))?;
-        let physics = MusclePhysics::default();
-        Ok(Self { preset: preset.to_owned(), physics, fish, spine, swim: SwimState::default() })
+        let (physics, swim) = (MusclePhysics::default(), SwimState::default());
+        Ok(Self { preset: preset.to_owned(), physics, fish, spine, swim, motion: OnceLock::new() })
     }
 
     /// A calibrated fish that goes on from these places of its nodes (metres), with this rotation and this velocity (m/s) of its
@@ -72,7 +83,7 @@ impl MuscleSwimmer {
         fish.kick(0, velocity);
         let speed = velocity.length() / length * fish.time_unit() as f32;
         fish.motor_mut(0).beat_at(&model.design, speed, phase);
-        body.fish = fish;
+        *body.fish_mut() = fish;
         Ok(body)
     }
 
@@ -84,7 +95,7 @@ impl MuscleSwimmer {
     /// Direction in which it goes on when the beat that swings its trunk is taken away: a unit vector.
     pub fn heading(&self) -> Vec3 {
         let yaw = self.fish.motor(0).heading();
-        let ahead = self.fish.placement(0).rotation() * Vec3::Z;
+        let ahead = self.motion().placement.rotation() * Vec3::Z;
         let level = math::sqrt(ahead.x * ahead.x + ahead.z * ahead.z);
         Vec3::new(level * math::sin(yaw), ahead.y, level * math::cos(yaw)).normalize_or(ahead)
     }
@@ -105,7 +116,7 @@ impl MuscleSwimmer {
             one.check(physics.get(&one.name).unwrap_or(f64::NAN))?;
         }
         let fish = Swimmers::restore_one(physics.model(&preset)?, &fish)?;
-        Ok(Self { preset, physics, fish, spine, swim })
+        Ok(Self { preset, physics, fish, spine, swim, motion: OnceLock::new() })
     }
 
     /// Takes up what the mind intends and what acts on it; the next [`advance`](Self::advance_together) does it.
@@ -113,7 +124,7 @@ impl MuscleSwimmer {
     /// # Errors
     /// For intentions that are not finite.
     pub fn obey(&mut self, intention: &Intention, influence: &Influence, dt: f32) -> Result<()> {
-        let length = self.fish.length(0) as f32;
+        let length = self.motion().length;
         let speed = intention.speed * length;
         let (steer, climb) = self.course(intention);
         self.fish.command(
@@ -128,9 +139,9 @@ impl MuscleSwimmer {
         )?;
         self.fish.set_flow(0, influence.flow);
         if influence.force != Vec3::ZERO {
-            self.fish.kick(0, influence.force * dt);
+            self.fish_mut().kick(0, influence.force * dt);
         }
-        let speed = self.fish.velocity(0).length() / length;
+        let speed = self.motion().velocity.length() / length;
         let brakes = intention.brake > 0.5 || intention.speed < 0.0;
         self.swim.row(speed, self.fish.motor(0).bend, brakes, dt);
         self.swim.gape(intention.mouth, dt);
@@ -140,7 +151,7 @@ impl MuscleSwimmer {
     /// Change of heading, if there is to be any, and climb, radians. The mind speaks of directions as its swaying trunk
     /// has them, the controllers hold those of the world.
     fn course(&self, intention: &Intention) -> (Option<f32>, f32) {
-        let rotation = self.fish.placement(0).rotation();
+        let rotation = self.motion().placement.rotation();
         let yaw = |way: Vec3| math::atan2(way.x, way.z);
         let pitch = |way: Vec3| math::atan2(way.y, math::sqrt(way.x * way.x + way.z * way.z));
         let (way, ahead) = (rotation * intention.heading, rotation * Vec3::Z);
@@ -160,15 +171,34 @@ impl MuscleSwimmer {
         (if went_straight { None } else { Some(0.0) }, climb)
     }
 
+    /// Changes the velocity of each node by what `change` gives for its place, in metres and metres per second.
+    pub fn draw(&mut self, change: impl Fn(Vec3) -> Vec3) {
+        self.fish_mut().draw(0, change);
+    }
+
     /// Advances all by `dt` seconds; they have been told what to do.
     pub fn advance_together(bodies: &mut [&mut Self], dt: f32) {
-        let mut fishes: Vec<_> = bodies.iter_mut().map(|body| &mut body.fish).collect();
+        let mut fishes: Vec<_> = bodies.iter_mut().map(|body| body.fish_mut()).collect();
         Swimmers::advance_together(&mut fishes, f64::from(dt));
+    }
+
+    /// The fish, to be moved.
+    fn fish_mut(&mut self) -> &mut Swimmers<f32> {
+        self.motion.take();
+        &mut self.fish
+    }
+
+    fn motion(&self) -> &Motion {
+        self.motion.get_or_init(|| Motion {
+            placement: self.fish.placement(0),
+            velocity: self.fish.velocity(0),
+            length: self.fish.length(0) as f32,
+        })
     }
 
     /// Size relative to that of the spine.
     fn scale(&self) -> f32 {
-        self.fish.length(0) as f32 / self.spine.length()
+        self.motion().length / self.spine.length()
     }
 
     /// Puts one of this length in its place, at rest.
@@ -180,7 +210,7 @@ impl MuscleSwimmer {
         };
         let place = position.to_array().map(f64::from);
         if fish.add(place, rotation, length).is_ok() {
-            self.fish = fish;
+            *self.fish_mut() = fish;
         }
     }
 }
@@ -192,7 +222,7 @@ impl Body for MuscleSwimmer {
 
     fn advance(&mut self, intention: &Intention, influence: &Influence, dt: f32) -> Result<()> {
         self.obey(intention, influence, dt)?;
-        self.fish.advance(f64::from(dt));
+        self.fish_mut().advance(f64::from(dt));
         Ok(())
     }
 
@@ -201,7 +231,7 @@ impl Body for MuscleSwimmer {
     }
 
     fn placement(&self) -> Transform {
-        let placement = self.fish.placement(0);
+        let placement = self.motion().placement;
         Transform::new(placement.position, placement.rotation(), self.scale())
     }
 
@@ -224,19 +254,19 @@ impl Body for MuscleSwimmer {
         if offset == Vec3::ZERO {
             return;
         }
-        self.fish.shift(0, offset);
+        self.fish_mut().shift(0, offset);
         // What it ran into takes the part of its motion that went into it.
         let out = offset.normalize_or_zero();
         let into = self.fish.velocity(0).dot(out).min(0.0);
-        self.fish.kick(0, -out * into);
+        self.fish_mut().kick(0, -out * into);
     }
 
     fn velocity(&self) -> Vec3 {
-        self.fish.velocity(0)
+        self.motion().velocity
     }
 
     fn length(&self) -> f32 {
-        self.fish.length(0) as f32
+        self.motion().length
     }
 
     fn joint_count(&self) -> usize {
@@ -297,7 +327,8 @@ impl Parameters for MuscleSwimmer {
     fn set(&mut self, name: &str, value: f64) -> Result<()> {
         let mut physics = self.physics.clone();
         physics.set(name, value)?;
-        self.fish.set_model(physics.model(&self.preset)?);
+        let model = physics.model(&self.preset)?;
+        self.fish_mut().set_model(model);
         self.physics = physics;
         Ok(())
     }

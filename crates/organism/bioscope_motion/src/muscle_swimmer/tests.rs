@@ -107,3 +107,19 @@ fn saved_fishes_go_on_as_they_were() {
     assert_eq!(go(&mut fish), go(&mut again));
     assert!(MuscleSwimmer::restore(spine(), &[1, 2, 3]).is_err());
 }
+
+#[test]
+fn what_draws_the_snout_does_not_draw_the_tail() {
+    let mut fish = MuscleSwimmer::new(spine(), "calibrated").unwrap();
+    let front = fish.placement().position.z + 0.1 * fish.length();
+    fish.draw(|node| if node.z > front { Vec3::Z } else { Vec3::ZERO });
+    let share = fish.velocity().z;
+    assert!((0.01..0.6).contains(&share), "the share of the mass that is before: {share}");
+    let before = fish.local_nodes();
+    fish.advance(&Intention::default(), &Influence::default(), 0.01).unwrap();
+    let after = fish.local_nodes();
+    let length = |nodes: &[Vec3]| nodes[0].z - 0.5 * (nodes[21].z + nodes[22].z);
+    assert!(length(&after) > length(&before), "it is stretched");
+    fish.draw(|_| Vec3::Y);
+    assert!((fish.velocity().y - 1.0).abs() < 0.05, "drawn as a whole it moves as a whole");
+}

@@ -2,15 +2,6 @@ use std::ops::RangeInclusive;
 
 use bioscope_core::{Id, Vec3};
 
-/// What sort of thing is perceived.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
-    /// Instance of a batch of the scene.
-    Instance,
-    /// One of the scene's points.
-    Point,
-}
-
 /// A thing that senses can notice.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Thing {
@@ -20,9 +11,7 @@ pub struct Thing {
     pub size: f32,
     /// Its identity.
     pub id: Id,
-    /// Where to find it: in which list of the scene,
-    pub kind: Kind,
-    /// in which batch or group of points,
+    /// Where to find it: in which batch or group of points of the scene,
     pub group: u32,
     /// and which of that group.
     pub member: u32,
@@ -38,15 +27,20 @@ const GREATEST: i64 = (1 << BITS) - 1;
 #[derive(Debug, Default)]
 pub(super) struct Cells {
     keys: Vec<u64>,
-    things: Vec<Thing>,
+    /// Which thing each key is of.
+    order: Vec<u32>,
     /// Octaves that occur.
     octaves: Vec<i32>,
+    /// No cell is smaller, metres.
+    least_edge: f32,
 }
 
 impl Cells {
-    pub fn new(things: Vec<Thing>) -> Self {
+    /// These things, in cells not smaller than `least_edge` metres.
+    pub fn new(things: &[Thing], least_edge: f32) -> Self {
+        let indexed = things.iter().enumerate();
         let mut keyed: Vec<(u64, u32)> =
-            things.iter().enumerate().map(|(index, one)| (key(one), index as u32)).collect();
+            indexed.map(|(index, one)| (key(one, least_edge), index as u32)).collect();
         keyed.sort_unstable();
         let mut octaves: Vec<i32> = Vec::new();
         for &(key, _) in &keyed {
@@ -55,20 +49,20 @@ impl Cells {
                 octaves.push(octave);
             }
         }
-        let sorted = keyed.iter().map(|&(_, index)| things[index as usize]).collect();
-        Self { keys: keyed.into_iter().map(|(key, _)| key).collect(), things: sorted, octaves }
+        let (keys, order) = keyed.into_iter().unzip();
+        Self { keys, order, octaves, least_edge }
     }
 
-    /// Calls `visit` for every thing that may lie within the distance that `reach` gives for its octave's
+    /// Calls `visit` with the index of every thing that may lie within the distance that `reach` gives for its octave's
     /// greatest size (metres), in a fixed order; some that lie farther are visited too.
-    pub fn near(&self, center: Vec3, reach: impl Fn(f32) -> f32, mut visit: impl FnMut(&Thing)) {
+    pub fn near(&self, center: Vec3, reach: impl Fn(f32) -> f32, mut visit: impl FnMut(u32)) {
         for &octave in &self.octaves {
             let size = largest(octave);
             let radius = reach(size);
             if radius <= 0.0 {
                 continue;
             }
-            let edge = EDGE * size;
+            let edge = (EDGE * size).max(self.least_edge);
             let span = |axis: usize| -> RangeInclusive<i64> {
                 let cell = |place: f32| coordinate(place, edge);
                 cell(center[axis] - radius)..=cell(center[axis] + radius)
@@ -83,7 +77,7 @@ impl Cells {
         &self,
         octave: i32,
         [xs, ys, zs]: [RangeInclusive<i64>; 3],
-        visit: &mut impl FnMut(&Thing),
+        visit: &mut impl FnMut(u32),
     ) {
         let corner = |z: i64, y: i64, x: i64| code(octave, z, y, x);
         let last = corner(*zs.end(), *ys.end(), *xs.end());
@@ -100,7 +94,7 @@ impl Cells {
             } else if x > *xs.end() {
                 corner(z, y + 1, *xs.start())
             } else {
-                visit(&self.things[index]);
+                visit(self.order[index]);
                 index += 1;
                 continue;
             };
@@ -123,9 +117,9 @@ impl Cells {
 /// Octave that is coded as zero.
 const OCTAVE_ZERO: i32 = 40;
 
-fn key(thing: &Thing) -> u64 {
+fn key(thing: &Thing, least_edge: f32) -> u64 {
     let octave = octave(thing.size);
-    let edge = EDGE * largest(octave);
+    let edge = (EDGE * largest(octave)).max(least_edge);
     let [x, y, z] = thing.position.to_array().map(|place| coordinate(place, edge));
     code(octave, z, y, x)
 }

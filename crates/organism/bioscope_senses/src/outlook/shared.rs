@@ -1,12 +1,14 @@
 use std::collections::BTreeMap;
-use std::sync::{Mutex, OnceLock, PoisonError};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
-use bioscope_core::Vec3;
 use bioscope_geometry::rasterizer::{Options, Prepared, Rasterizer};
 use bioscope_geometry::{Mesh, Scene};
 
-use super::cells::{Cells, Kind, Thing};
+use super::cells::Thing;
+use super::register::Register;
 
+/// Least edge of the cells in which points are looked up, metres: they are smelled from farther than their size tells (choice).
+const LEAST_EDGE: f32 = 1.0;
 /// Meshes whose extent is remembered before the memory is emptied.
 const KNOWN_MESHES: usize = 4096;
 
@@ -16,6 +18,8 @@ pub struct Memory {
     rasterizer: Mutex<Rasterizer>,
     /// Greatest extent of each mesh at scale 1 by its key, metres.
     extents: Mutex<BTreeMap<u64, f32>>,
+    /// What was worked out last.
+    survey: Mutex<Option<Arc<Survey>>>,
 }
 
 impl Memory {
@@ -37,15 +41,40 @@ impl Memory {
 pub struct Outlook<'a> {
     scene: &'a Scene,
     memory: &'a Memory,
-    cells: Cells,
+    survey: Arc<Survey>,
+}
+
+/// What was worked out of one scene.
+#[derive(Debug)]
+struct Survey {
+    /// The scene, if more than one may ask for it.
+    scene: Option<Arc<Scene>>,
+    instances: Register,
+    points: Register,
     prepared: OnceLock<Prepared>,
 }
 
 impl<'a> Outlook<'a> {
     /// The outlook on this scene.
     pub fn new(scene: &'a Scene, memory: &'a Memory) -> Self {
-        let cells = Cells::new(things(scene, memory));
-        Self { scene, memory, cells, prepared: OnceLock::new() }
+        let mut last = memory.survey.lock().unwrap_or_else(PoisonError::into_inner);
+        let survey = Arc::new(Survey::of(scene, memory, last.as_deref()));
+        *last = Some(survey.clone());
+        Self { scene, memory, survey }
+    }
+
+    /// The outlook on this scene, which is worked out once for all who share the memory.
+    pub fn shared(scene: &'a Arc<Scene>, memory: &'a Memory) -> Self {
+        let mut last = memory.survey.lock().unwrap_or_else(PoisonError::into_inner);
+        let is_same =
+            |one: &&Arc<Survey>| one.scene.as_ref().is_some_and(|one| Arc::ptr_eq(one, scene));
+        if let Some(survey) = last.as_ref().filter(is_same) {
+            return Self { scene, memory, survey: survey.clone() };
+        }
+        let survey = Survey::of(scene, memory, last.as_deref());
+        let survey = Arc::new(Survey { scene: Some(scene.clone()), ..survey });
+        *last = Some(survey.clone());
+        Self { scene, memory, survey }
     }
 
     /// What can be seen.
@@ -53,16 +82,19 @@ impl<'a> Outlook<'a> {
         self.scene
     }
 
-    /// Calls `visit` for every living thing and point that may lie within reach of `center` (metres), in
-    /// a fixed order. `reach` says how far a thing of a size is of interest, both in metres; it must not
-    /// fall with size. Some things that lie farther are visited too.
-    pub fn near(&self, center: Vec3, reach: impl Fn(f32) -> f32, visit: impl FnMut(&Thing)) {
-        self.cells.near(center, reach, visit);
+    /// All living things.
+    pub fn instances(&self) -> &Register {
+        &self.survey.instances
+    }
+
+    /// All points.
+    pub fn points(&self) -> &Register {
+        &self.survey.points
     }
 
     /// The scene made ready for looking at: by the first who looks, for all.
     pub fn prepared(&self) -> &Prepared {
-        self.prepared.get_or_init(|| {
+        self.survey.prepared.get_or_init(|| {
             // A panic while preparing leaves at worst forgotten meshes.
             let rasterizer = self.memory.rasterizer.lock();
             rasterizer.unwrap_or_else(PoisonError::into_inner).prepare(self.scene, &Options::eye())
@@ -70,8 +102,19 @@ impl<'a> Outlook<'a> {
     }
 }
 
-/// Everything alive and every point of a scene.
-fn things(scene: &Scene, memory: &Memory) -> Vec<Thing> {
+impl Survey {
+    fn of(scene: &Scene, memory: &Memory, last: Option<&Self>) -> Self {
+        let (instances, points) = (instances(scene, memory), points(scene));
+        let (instances, points) = match last {
+            Some(last) => (last.instances.followed_by(instances), last.points.followed_by(points)),
+            None => (Register::new(instances, 0.0), Register::new(points, LEAST_EDGE)),
+        };
+        Self { scene: None, instances, points, prepared: OnceLock::new() }
+    }
+}
+
+/// Everything alive in a scene.
+fn instances(scene: &Scene, memory: &Memory) -> Vec<Thing> {
     let mut things = Vec::new();
     for (group, batch) in scene.batches.iter().enumerate().filter(|(_, batch)| batch.alive) {
         let mesh_size = memory.extent(&batch.mesh);
@@ -80,23 +123,22 @@ fn things(scene: &Scene, memory: &Memory) -> Vec<Thing> {
                 position: transform.position,
                 size: mesh_size * transform.scale,
                 id,
-                kind: Kind::Instance,
                 group: group as u32,
                 member: member as u32,
             });
         }
     }
+    things
+}
+
+/// Every point of a scene.
+fn points(scene: &Scene) -> Vec<Thing> {
+    let mut things = Vec::new();
     for (group, points) in scene.points.iter().enumerate() {
         let all = points.positions.iter().zip(&points.radii).zip(&points.ids);
         for (member, ((&position, radius), &id)) in all.enumerate() {
-            things.push(Thing {
-                position,
-                size: 2.0 * radius,
-                id,
-                kind: Kind::Point,
-                group: group as u32,
-                member: member as u32,
-            });
+            let (group, member) = (group as u32, member as u32);
+            things.push(Thing { position, size: 2.0 * radius, id, group, member });
         }
     }
     things

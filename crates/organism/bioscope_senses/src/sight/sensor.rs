@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::cover::Cover;
 use crate::eye::{eye_camera, eye_position};
-use crate::outlook::{Kind, Thing};
+use crate::outlook::{Reach, Shortlist, Thing};
 use crate::{Sense, Surroundings};
 
 /// −ln of the least contrast that is seen, 2 percent (Koschmieder 1924).
@@ -37,6 +37,8 @@ impl SightParameters {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Sight {
     parameters: SightParameters,
+    #[serde(skip)]
+    shortlist: Shortlist,
 }
 
 /// Something within range and field of view.
@@ -51,36 +53,41 @@ struct Candidate {
 impl Sight {
     /// Sight this good.
     pub fn new(parameters: SightParameters) -> Self {
-        Self { parameters }
+        Self { parameters, shortlist: Shortlist::default() }
     }
 
     /// Everything within range and field of view.
-    fn candidates(&self, surroundings: &Surroundings, eye: Vec3) -> Vec<Candidate> {
+    fn candidates(&mut self, surroundings: &Surroundings, eye: Vec3) -> Vec<Candidate> {
         let range = self.parameters.range.min(visibility(surroundings.medium));
         let half_angle = (0.5 * self.parameters.field_of_view).min(180.0).to_radians();
         let least_cosine = math::cos(half_angle);
         let least_size = 2.0 * math::tan(0.5 * self.parameters.acuity.to_radians());
         let heading = surroundings.heading();
         let batches = &surroundings.scene().batches;
-        let reach = |size: f32| range.min(size / least_size.max(1e-9));
+        let reach = Reach { range, least: least_size.max(1e-9) };
         let mut candidates = Vec::new();
-        surroundings.outlook.near(eye, reach, |thing| {
-            let offset = thing.position - eye;
-            let distance = offset.length();
-            let seen = distance <= reach(thing.size)
-                && offset.dot(heading) >= least_cosine * distance
-                && thing.kind == Kind::Instance
-                && thing.id != surroundings.id;
-            if seen {
-                let stays = batches[thing.group as usize].velocities.is_empty();
-                candidates.push(Candidate { stays, distance, thing: *thing });
-            }
-        });
+        let instances = surroundings.outlook.instances();
+        self.shortlist.near(
+            instances,
+            (eye, reach),
+            |_| true,
+            |thing| {
+                let offset = thing.position - eye;
+                let distance = offset.length();
+                let seen = distance <= reach.of(thing.size)
+                    && offset.dot(heading) >= least_cosine * distance
+                    && thing.id != surroundings.id;
+                if seen {
+                    let stays = batches[thing.group as usize].velocities.is_empty();
+                    candidates.push(Candidate { stays, distance, thing: *thing });
+                }
+            },
+        );
         candidates
     }
 
     /// Those that are attended to: the nearest that are not hidden.
-    fn attended(&self, surroundings: &Surroundings, eye: Vec3) -> (Vec<Candidate>, Vec<Vec3>) {
+    fn attended(&mut self, surroundings: &Surroundings, eye: Vec3) -> (Vec<Candidate>, Vec<Vec3>) {
         let attention = self.parameters.attention as usize;
         let mut candidates = self.candidates(surroundings, eye);
         // Some more than are attended to, for those that turn out to be hidden.

@@ -248,3 +248,39 @@ fn what_moves_is_attended_to_before_what_stays() {
     let ids: Vec<u32> = percepts.seen.iter().map(|one| one.id).collect();
     assert_eq!(ids, [10, 20, 11, 12]);
 }
+
+#[test]
+fn whoever_looks_on_sees_what_one_who_looks_first_sees() {
+    let mut places: Vec<Vec3> = (0..300)
+        .map(|index| {
+            let turn = index as f32 * 2.4;
+            Vec3::new(turn.sin(), (turn * 0.37).sin(), turn.cos()) * (0.3 + 0.02 * index as f32)
+        })
+        .collect();
+    let (medium, memory) = (Medium::default(), Memory::default());
+    let parameters = SightParameters { attention: 200.0, ..SightParameters::fish() };
+    let mut sight = Sight::new(parameters.clone());
+    for tick in 0..80usize {
+        for (index, place) in places.iter_mut().enumerate() {
+            *place += Vec3::new((index as f32).sin(), 0.2, (index as f32).cos()) * 0.02;
+        }
+        match tick % 20 {
+            7 => places.push(Vec3::splat(0.5)),
+            11 => drop(places.remove(tick)),
+            15 => places[tick] = Vec3::new(0.2, 0.0, 1.0),
+            _ => {}
+        }
+        let scene = scene(&places);
+        let outlook = Outlook::new(&scene, &memory);
+        let position = Vec3::new(0.0, 0.0, 0.03 * tick as f32);
+        let place = Surroundings { position, ..surroundings(&outlook, &medium) };
+        let look = |sight: &mut Sight| {
+            let mut percepts = Percepts::default();
+            sight.sense(&place, &mut percepts).unwrap();
+            percepts.seen
+        };
+        let seen = look(&mut sight);
+        assert!(seen.len() > 20);
+        assert_eq!(seen, look(&mut Sight::new(parameters.clone())), "tick {tick}");
+    }
+}

@@ -3,7 +3,7 @@ use std::sync::Arc;
 use bioscope_core::{Parameters, Percepts, Result, Sighting, parameters, state};
 use serde::{Deserialize, Serialize};
 
-use crate::outlook::{Kind, Thing};
+use crate::outlook::{Reach, Register, Shortlist, Thing};
 use crate::{Sense, Surroundings};
 
 parameters! {
@@ -22,12 +22,24 @@ pub struct Smell {
     parameters: SmellParameters,
     /// Species that smell of food.
     foods: Vec<Arc<str>>,
+    /// Those among living things, and among points.
+    #[serde(skip)]
+    shortlists: [Shortlist; 2],
+}
+
+/// Food within range.
+#[derive(Clone, Copy)]
+struct Morsel {
+    /// Square of its distance, metres squared.
+    square: f32,
+    is_point: bool,
+    thing: Thing,
 }
 
 impl Smell {
     /// Smell for food of these species.
     pub fn new(foods: Vec<Arc<str>>, parameters: SmellParameters) -> Self {
-        Self { parameters, foods }
+        Self { parameters, foods, shortlists: Default::default() }
     }
 }
 
@@ -41,35 +53,39 @@ impl Sense for Smell {
         if self.foods.is_empty() {
             return Ok(());
         }
-        let scene = surroundings.scene();
-        let is_food = |species: &Arc<str>| self.foods.iter().any(|food| food == species);
+        let Self { parameters, foods, shortlists: [among_instances, among_points] } = self;
+        let (scene, outlook) = (surroundings.scene(), surroundings.outlook);
+        let is_food = |species: &Arc<str>| foods.iter().any(|food| food == species);
         let batches: Vec<bool> = scene.batches.iter().map(|one| is_food(&one.species)).collect();
         let points: Vec<bool> = scene.points.iter().map(|one| is_food(&one.species)).collect();
-        let range = self.parameters.range * surroundings.body_length;
-        let mut morsels: Vec<(f32, Thing)> = Vec::new();
-        surroundings.outlook.near(
-            surroundings.position,
-            |_| range,
-            |thing| {
-                let smells = match thing.kind {
-                    Kind::Instance => batches[thing.group as usize],
-                    Kind::Point => points[thing.group as usize],
-                };
-                let square = thing.position.distance_squared(surroundings.position);
-                if smells && square <= range * range && thing.id != surroundings.id {
-                    morsels.push((square, *thing));
+        let (place, range) = (surroundings.position, parameters.range * surroundings.body_length);
+        let mut morsels: Vec<Morsel> = Vec::new();
+        let mut smell =
+            |register: &Register, shortlist: &mut Shortlist, food: &[bool], is_point| {
+                if !food.contains(&true) {
+                    return;
                 }
-            },
-        );
-        let order =
-            |a: &(f32, Thing), b: &(f32, Thing)| a.0.total_cmp(&b.0).then(a.1.id.cmp(&b.1.id));
-        let attention = self.parameters.attention as usize;
+                let keep = |thing: &Thing| food[thing.group as usize];
+                shortlist.near(register, (place, Reach { range, least: 0.0 }), keep, |thing| {
+                    let square = thing.position.distance_squared(place);
+                    // Another thing may have come in the place of food.
+                    if square <= range * range && thing.id != surroundings.id && keep(thing) {
+                        morsels.push(Morsel { square, is_point, thing: *thing });
+                    }
+                });
+            };
+        smell(outlook.instances(), among_instances, &batches, false);
+        smell(outlook.points(), among_points, &points, true);
+        let order = |a: &Morsel, b: &Morsel| {
+            a.square.total_cmp(&b.square).then(a.thing.id.cmp(&b.thing.id))
+        };
+        let attention = parameters.attention as usize;
         if attention > 0 && morsels.len() > attention {
             morsels.select_nth_unstable_by(attention - 1, order);
         }
         morsels.truncate(attention);
         morsels.sort_unstable_by(order);
-        percepts.smelled.extend(morsels.iter().map(|(_, thing)| sighting(surroundings, thing)));
+        percepts.smelled.extend(morsels.iter().map(|one| sighting(surroundings, one)));
         Ok(())
     }
 
@@ -87,12 +103,11 @@ impl Sense for Smell {
 }
 
 /// A smelled thing: where and of what kind it is; a smell tells neither color nor motion.
-fn sighting(surroundings: &Surroundings, thing: &Thing) -> Sighting {
+fn sighting(surroundings: &Surroundings, morsel: &Morsel) -> Sighting {
+    let Morsel { is_point, thing, .. } = morsel;
     let (scene, group) = (surroundings.scene(), thing.group as usize);
-    let species = match thing.kind {
-        Kind::Instance => &scene.batches[group].species,
-        Kind::Point => &scene.points[group].species,
-    };
+    let species =
+        if *is_point { &scene.points[group].species } else { &scene.batches[group].species };
     Sighting {
         id: thing.id,
         species: species.clone(),

@@ -68,8 +68,6 @@ pub struct Animals {
     pub(super) kinds: Arc<Kinds>,
     /// Those that were caught in this tick.
     pub(super) caught: Vec<Gone>,
-    /// What the senses remember of the scene's meshes; no state.
-    pub(super) memory: Arc<Memory>,
     /// What acts on each of them in this tick, as they felt it before they moved; no state.
     pub(super) felt: Vec<Influence>,
 }
@@ -84,9 +82,8 @@ impl Animals {
             .into_iter()
             .map(|parts| Individual { id: NOTHING, parts, record: Record::default() })
             .collect();
-        let (patterns, caught) = (Vec::new(), Vec::new());
-        let (memory, felt) = (Arc::default(), Vec::new());
-        Ok(Self { options, individuals, patterns, kinds, caught, memory, felt })
+        let (patterns, caught, felt) = (Vec::new(), Vec::new(), Vec::new());
+        Ok(Self { options, individuals, patterns, kinds, caught, felt })
     }
 
     /// Runs `work` on every individual: in parallel, or in order where a part is the user's own. Of
@@ -111,7 +108,8 @@ impl Animals {
         view.environment.influence(&bodies.collect::<Vec<_>>(), view.moment.time)
     }
 
-    /// What moves each of them: what acts on it, and mouths that suck.
+    /// What moves each of them: what acts on it, and mouths that suck. A body of muscles is drawn node by node, so that
+    /// what of it is before the mouth goes first; others as a whole.
     fn drives(&mut self, view: &View) -> Result<Vec<Influence>> {
         // Nobody has moved since it was felt.
         let mut influences = std::mem::take(&mut self.felt);
@@ -119,10 +117,17 @@ impl Animals {
             influences = self.influences(view)?;
         }
         if !view.scene.mouths.is_empty() {
-            let mouths = Mouths::new(&view.scene.mouths);
-            for (one, influence) in self.individuals.iter().zip(&mut influences) {
-                let body = &one.parts.body;
-                influence.force += mouths.pull(one.id, body.placement().position, body.length());
+            let (mouths, dt) = (Mouths::new(&view.scene.mouths), view.moment.dt);
+            for (one, influence) in self.individuals.iter_mut().zip(&mut influences) {
+                let (id, body) = (one.id, &mut one.parts.body);
+                let (position, length) = (body.placement().position, body.length());
+                match body.muscles() {
+                    Some(muscles) if mouths.reach(position, length) => {
+                        muscles.draw(|node| mouths.pull(id, node, length) * dt);
+                    }
+                    Some(_) => {}
+                    None => influence.force += mouths.pull(id, position, length),
+                }
             }
         }
         Ok(influences)
@@ -243,8 +248,8 @@ impl Population for Animals {
 
     fn sense(&mut self, view: &View) -> Result<()> {
         let influences = self.influences(view)?;
-        let memory = self.memory.clone();
-        let outlook = Outlook::new(view.scene, &memory);
+        let memory = view.common.get::<Memory>();
+        let outlook = Outlook::shared(view.scene, &memory);
         let meals = feeding::meals(view.events);
         let reaction = self.options.reaction;
         self.each(|individual, index| {

@@ -40,10 +40,9 @@ impl Animals {
     /// The animals that `save` stored; their parts are built with `kinds`.
     pub fn from_saved(bytes: &[u8], kinds: Arc<Kinds>) -> Result<Self> {
         let state: State = state::from_bytes(PART, bytes)?;
-        let (options, memory) = (state.options, Arc::default());
-        let (individuals, patterns, caught) = (Vec::new(), state.patterns, state.caught);
-        let felt = Vec::new();
-        let mut animals = Self { options, individuals, patterns, kinds, caught, memory, felt };
+        let State { options, patterns, caught, .. } = state;
+        let (individuals, felt) = (Vec::new(), Vec::new());
+        let mut animals = Self { options, individuals, patterns, kinds, caught, felt };
         for saved in state.individuals {
             let individual = animals.rebuild(saved)?;
             animals.individuals.push(individual);
