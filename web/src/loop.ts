@@ -31,6 +31,8 @@ export class FrameLoop {
   private readonly unseen: number[] = [];
   private inspected = false;
   private fine = false;
+  /** What is on the screen. */
+  private moment: Moment | null = null;
   private renewed = false;
   private wasBroken = false;
   private visible = false;
@@ -84,7 +86,9 @@ export class FrameLoop {
 
   /** Draws the picture on the screen again, so that it can be read from the canvas. */
   drawAgain(): void {
-    this.viewer.stage.render(this.viewer.cameras.camera);
+    const { stage, cameras } = this.viewer;
+    if (this.moment) stage.prepare(cameras.camera, this.moment); // meshes as fine as the quality is now
+    stage.render(cameras.camera);
   }
 
   /** A new connection brings everything anew; until it has, the last picture stays. */
@@ -142,6 +146,7 @@ export class FrameLoop {
     const { stage, cameras, selection, controls } = this.viewer;
     if (moment.fresh && !this.advance(moment)) return;
     if (!stage.layout) return;
+    this.moment = moment;
     const time = moment.frame.time;
     const scenery = { stage, time, selected: selection.id, dt };
     cameras.update(scenery, this.size.width / this.size.height);
