@@ -53,11 +53,32 @@ def test_parameters_are_keywords_and_sliders():
         ({"species": "unicorn"}, "unicorn.*anchovy"),
         ({"count": 10**9}, "count"),
         ({"center": (math.nan, 0, 0)}, "center|null"),
+        ({"center": np.array([math.nan, 0, 0])}, "center"),
+        ({"center": (np.float32(math.inf), 0, 0)}, "center"),
+        ({"center": np.array([1j, 0, 0])}, "expected numbers"),
     ],
 )
 def test_impossible_schools_are_refused(arguments, message):
     with pytest.raises(bio.BioscopeError, match=message):
         bio.FishSchool(**{"species": "anchovy", "count": 3} | arguments)
+
+
+def test_numbers_of_numpy_are_numbers():
+    at = np.array([0.5, -5.0, 0.25])
+    hashes = set()
+    for center, count, threshold in [
+        (tuple(at.tolist()), 4, 0.5),
+        (at, np.int64(4), np.float32(0.5)),
+    ]:
+        world = tank()
+        mind = bio.minds.Intentions("pacifist", drive_threshold=threshold)
+        world.add(bio.RoamingFish("anthias", count, center=center, mind=mind))
+        world.add(bio.FishSchool("fusilier", count, center=tuple(center), half=at**2))
+        world.add(bio.Plankton(10, low=at - 1, high=at + 1))
+        world.step(3)
+        world.order("fusilier", {"number": count - 1})
+        hashes.add(world.state_hash())
+    assert len(hashes) == 1
 
 
 def test_a_species_of_ones_own_and_a_wrong_one(tmp_path):

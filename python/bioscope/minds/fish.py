@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, ClassVar, Self
 
-import msgspec
-
 from bioscope import _engine
 from bioscope.errors import UnknownNameError
+from bioscope.json_text import json_text
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -83,7 +82,7 @@ class FishMind:
         }
         if eye:
             self._request["eye"] = True
-        self._mind = _engine.FishMind(msgspec.json.encode(self._request).decode())
+        self._mind = _engine.FishMind(json_text(self._request))
         self._tick = 0
         self._last: dict[str, Any] = {}
 

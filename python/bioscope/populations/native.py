@@ -5,10 +5,11 @@ from __future__ import annotations
 import math
 from typing import Any
 
-import msgspec
+import numpy as np
 
 from bioscope import _engine
 from bioscope.errors import InvalidValueError
+from bioscope.json_text import json_text
 from bioscope.world.population import Native
 
 
@@ -36,11 +37,13 @@ def asked_text(options: dict[str, Any], **always: Any) -> str:
             # JSON has no word for it, so the engine could not tell which it was.
             msg = f"{name} = {value}: expected finite numbers"
             raise InvalidValueError(msg)
-    return msgspec.json.encode(said).decode()
+    return json_text(said)
 
 
 def _finite(value: Any) -> bool:
     """Say whether all numbers in a value are finite."""
     if isinstance(value, (list, tuple)):
         return all(_finite(one) for one in value)
-    return not isinstance(value, float) or math.isfinite(value)
+    if isinstance(value, np.ndarray) and value.dtype.kind == "f":
+        return bool(np.isfinite(value).all())
+    return not isinstance(value, (float, np.floating)) or math.isfinite(value)

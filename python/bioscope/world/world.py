@@ -6,10 +6,9 @@ import secrets
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
-import msgspec
-
 from bioscope import _engine, minds
 from bioscope.files import naming, written_whole
+from bioscope.json_text import json_text
 from bioscope.world import field as fields
 from bioscope.world import population as populations
 from bioscope.world.cameras import Cameras
@@ -190,7 +189,7 @@ class World:
         UnknownNameError, InvalidValueError, FormatError
             For an unknown population, or an order that it cannot obey; nothing is changed then.
         """
-        self._engine.order(population, msgspec.json.encode(order).decode())
+        self._engine.order(population, json_text(order))
 
     def inspect(self, individual: int) -> dict[str, Any] | None:
         """Return what can be known of one individual; none if there is no such one.
