@@ -17,27 +17,14 @@ pub trait Dispatch: Real {
         push: &[Triple<Self>],
         dt: f64,
         work: &mut Workspace<Self>,
-    ) -> Result<()>;
+    ) -> Result<()> {
+        mechanics.step(body, flow, push, dt, work)
+    }
 }
 
-macro_rules! alone {
-    ($($number:ident),*) => {$(
-        impl Dispatch for $number {
-            fn step(
-                mechanics: &Mechanics,
-                body: &mut Body<Self>,
-                flow: &[Triple<Self>],
-                push: &[Triple<Self>],
-                dt: f64,
-                work: &mut Workspace<Self>,
-            ) -> Result<()> {
-                mechanics.step(body, flow, push, dt, work)
-            }
-        }
-    )*};
-}
+impl Dispatch for f32 {}
 
-alone!(f32, f64);
+impl Dispatch for f64 {}
 
 impl Dispatch for Lanes {
     fn step(
