@@ -11,14 +11,14 @@ EYE = 0.44
 """How far the eye lies ahead of the middle, body lengths."""
 
 
-class Witness(bio.Mind):
+class Onlooker(bio.Mind):
     """Swims about and tells what it sees."""
 
     told: dict[int, tuple[set[int], float]] = {}
 
     def decide(self, percepts):
         seen = {one["id"] for one in percepts["seen"]}
-        Witness.told[percepts["id"]] = (seen, percepts["body_length"])
+        Onlooker.told[percepts["id"]] = (seen, percepts["body_length"])
         turn = np.sin(3 * percepts["time"] + percepts["id"])
         return {"speed": 1.0 + 2.0 * (percepts["id"] % 3), "heading": (turn, 0.2 * turn, 1.0)}
 
@@ -57,7 +57,7 @@ def ahead(rotations: np.ndarray) -> np.ndarray:
 
 @pytest.mark.capability("TF-078")
 def test_lists_show_what_looking_at_all_shows():
-    world, fishes = shoal(mind=Witness)
+    world, fishes = shoal(mind=Onlooker)
     for population in fishes.values():
         population.set(sight_attention=1000, sight_range=RANGE)
     in_view, compared = [], 0
@@ -67,11 +67,11 @@ def test_lists_show_what_looking_at_all_shows():
         ids = np.concatenate([one.ids for one in batches])
         places = np.concatenate([one.positions for one in batches]).astype(float)
         ways = np.concatenate([ahead(one.rotations) for one in batches])
-        Witness.told.clear()
+        Onlooker.told.clear()
         world.step()
-        assert set(Witness.told) == set(ids.tolist())
+        assert set(Onlooker.told) == set(ids.tolist())
         for who, place, way in zip(ids.tolist(), places, ways, strict=True):
-            seen, length = Witness.told[who]
+            seen, length = Onlooker.told[who]
             offsets = places - (place + EYE * length * way)
             far = np.linalg.norm(offsets, axis=1)
             turned = offsets @ way / np.maximum(far, 1e-9)
