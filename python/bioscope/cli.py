@@ -16,7 +16,7 @@ from bioscope import worlds
 from bioscope.errors import BioscopeError, UnknownNameError
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Collection, Iterator, Sequence
 
     from bioscope.world import World
 
@@ -220,6 +220,22 @@ def film(
     film_world(opened(world, seed), output, made, frames=frames, say=say)
 
 
+def _still_to_make(
+    what: str, names: Sequence[str], known: Collection[str], folder: Path, suffix: str
+) -> Iterator[tuple[str, Path]]:
+    """Yield names with their files in a folder, but for files that are there already."""
+    for name in names:
+        if name not in known:
+            raise UnknownNameError(f"unknown {what} '{name}'; known: {', '.join(known)}")
+    folder.mkdir(parents=True, exist_ok=True)
+    for name in names:
+        path = folder / f"{name}{suffix}"
+        if path.exists():
+            say(f"{path} is there")
+        else:
+            yield name, path
+
+
 @command("films", "bioscope films -o films")
 @path_option("-o", "--output", metavar="DIR", required=True, help="Folder for the films.")
 @click.option("--size", metavar="WxH", default="1280x720", help="Pixels.")
@@ -233,15 +249,7 @@ def films(output: Path, size: str, renderer: str, names: tuple[str, ...]) -> Non
     from bioscope.film import FilmOptions, film_world, parse_size
 
     seeds = worlds.films()
-    for name in names:
-        if name not in seeds:
-            raise UnknownNameError(f"unknown film '{name}'; known: {', '.join(seeds)}")
-    output.mkdir(parents=True, exist_ok=True)
-    for name in names or seeds:
-        path = output / f"{name}.mp4"
-        if path.exists():
-            say(f"{path} is there")
-            continue
+    for name, path in _still_to_make("film", names or list(seeds), seeds, output, ".mp4"):
         made = opened(name, seeds[name])
         seconds = sum(length for _, length in made.shots)
         options = FilmOptions(seconds=seconds, size=parse_size(size), renderer=renderer)
@@ -261,15 +269,7 @@ def stills(output: Path, size: str, renderer: str, names: tuple[str, ...]) -> No
     from bioscope.film import parse_size, take_still
 
     plates = worlds.plates()
-    for name in names:
-        if name not in plates:
-            raise UnknownNameError(f"unknown still '{name}'; known: {', '.join(plates)}")
-    output.mkdir(parents=True, exist_ok=True)
-    for name in names or plates:
-        path = output / f"{name}.png"
-        if path.exists():
-            say(f"{path} is there")
-            continue
+    for name, path in _still_to_make("still", names or list(plates), plates, output, ".png"):
         plate = plates[name]
         made = opened(plate.world, plate.seed)
         made.run(plate.time)

@@ -4,22 +4,11 @@ import math
 
 import numpy as np
 import pytest
+from definitions import LINE, NONE, TURNS, animation, text
 
 import bioscope as bio
 from bioscope.lsystem import Animation
 from bioscope.lsystem.animation import Source
-
-NONE = "() () () () () () ()"
-LINE = "R () () () () (1) () ()"
-TURNS = "+ () () () () (40) () ()\n& () () () () (25) () ()\n$ () () () () (70) () ()"
-
-
-def text(*symbols: str, head: str = "") -> str:
-    return f"{head}\nAxiom\n" + "\n".join(symbols) + "\nProductions\nEndProductions\n"
-
-
-def animation(*symbols: str, head: str = "", **options) -> Animation:
-    return Animation(text(*symbols, head=head), **options)
 
 
 def axes(made: Animation) -> np.ndarray:
