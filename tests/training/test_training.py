@@ -9,6 +9,7 @@ from gymnasium.utils.env_checker import check_env
 from pettingzoo.test import parallel_api_test, parallel_seed_test
 
 from bioscope import training
+from bioscope.errors import InvalidValueError
 
 
 def seeker(env: training.FishForaging, observation: np.ndarray) -> np.ndarray:
@@ -66,8 +67,36 @@ def test_stepping_before_a_reset_is_refused():
 
 
 def test_pettingzoo_accepts_it():
-    parallel_api_test(training.school_parallel_env(count=3, most=5, seconds=4.0), num_cycles=60)
+    env = training.school_parallel_env(count=3, most=5, newcomer_interval=1.0, seconds=4.0)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        parallel_api_test(env, num_cycles=60)
     parallel_seed_test(lambda: training.school_parallel_env(count=2, seconds=1.5), num_cycles=12)
+
+
+def test_who_joins_is_observed_at_once():
+    env = training.school_parallel_env(count=2, most=3, newcomer_interval=0.5, seconds=2.0)
+    env.reset(seed=2)
+    still = np.array([0.0, 0.0, -1.0, -1.0], np.float32)
+    for _ in range(5):
+        found = env.step(dict.fromkeys(env.agents, still))
+    assert len(env.agents) == 3
+    assert all(set(part) == set(env.agents) for part in found)
+    assert np.abs(found[0]["anchovy_2"]).max() > 0.0
+
+
+@pytest.mark.parametrize("action", [np.full(4, np.nan), np.zeros(3), None, "left"])
+def test_actions_that_are_none_are_refused(action):
+    alone = training.FishForaging(seconds=1.0)
+    alone.reset(seed=1)
+    with pytest.raises(InvalidValueError, match="action"):
+        alone.step(action)
+    many = training.school_parallel_env(count=1, seconds=1.0)
+    many.reset(seed=1)
+    with pytest.raises(InvalidValueError, match="action"):
+        many.step({"anchovy_0": action})
+    with pytest.raises(InvalidValueError, match="herring_0"):
+        many.step({"herring_0": np.zeros(4)})
 
 
 def test_agents_come_and_go_and_names_are_never_used_twice():

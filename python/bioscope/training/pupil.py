@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from bioscope.errors import InvalidValueError
 from bioscope.minds import Mind
 
 if TYPE_CHECKING:
@@ -44,8 +45,20 @@ class Pupil(Mind):
         self.mouth = 0.0
 
     def obey(self, action: NDArray[np.float32]) -> None:
-        """Take up an action of four numbers; those beyond -1 to 1 count as the nearest of these."""
-        turn, climb, speed, mouth = np.clip(np.nan_to_num(action), -1.0, 1.0)
+        """Take up an action of four numbers; those beyond -1 to 1 count as the nearest of these.
+
+        Raises
+        ------
+        InvalidValueError
+            For other than four finite numbers.
+        """
+        try:
+            numbers = np.asarray(action, dtype=np.float64)
+        except (TypeError, ValueError):
+            numbers = np.full(0, np.nan)
+        if numbers.shape != (4,) or not np.isfinite(numbers).all():
+            raise InvalidValueError(f"action = {action!r}: expected four finite numbers")
+        turn, climb, speed, mouth = np.clip(numbers, -1.0, 1.0)
         self.turn = float(turn) * TURN
         self.climb = float(climb) * CLIMB
         self.speed = 0.5 * (float(speed) + 1.0) * FULL_SPEED

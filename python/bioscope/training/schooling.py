@@ -80,6 +80,9 @@ class SchoolEnv(ParallelEnv):  # type: ignore[misc]  # the library has no types
     ) -> None:
         if not 1 <= count <= most:
             raise InvalidValueError(f"count: {count}: expected 1 to most ({most})")
+        for name, value in (("newcomer_interval", newcomer_interval), ("seconds", seconds)):
+            if not value > 0.0:
+                raise InvalidValueError(f"{name} = {value}: expected a number above 0")
         self._count, self._most = count, most
         self._interval, self._predators, self._seconds = newcomer_interval, predators, seconds
         self.observation = Observation(_PREY, _PREDATOR)
@@ -136,8 +139,12 @@ class SchoolEnv(ParallelEnv):  # type: ignore[misc]  # the library has no types
         if self.world is None or not self.agents:
             return {}, {}, {}, {}, {}
         for agent, action in actions.items():
+            if agent not in self._pupils:
+                expected = ", ".join(self.agents)
+                raise InvalidValueError(f"actions of '{agent}': expected those of {expected}")
             self._pupils[agent].obey(action)
-        before = self.world.time
+        if self._due():
+            self._join()
         self.world.step(TICKS)
         caught = {event.subject for event in self.world.drain_events() if event.kind == "caught"}
         gone = {agent for agent in self.agents if self._identity(agent) in caught}
@@ -148,9 +155,15 @@ class SchoolEnv(ParallelEnv):  # type: ignore[misc]  # the library has no types
         truncations = dict.fromkeys(self.agents, over)
         infos: dict[str, dict[str, Any]] = {agent: {} for agent in self.agents}
         self.agents = [] if over else [agent for agent in self.agents if agent not in gone]
-        if self.agents and self.world.time // self._interval > before // self._interval:
-            self._join()
         return observations, rewards, terminations, truncations, infos
+
+    def _due(self) -> bool:
+        """Say whether a newcomer's time comes in this step."""
+        if self.world is None:
+            return False
+        now = self.world.time
+        then = now + TICKS * self.world.dt
+        return now // self._interval < then // self._interval
 
     def _join(self) -> None:
         """Let another fish join, if any may."""
