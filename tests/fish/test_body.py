@@ -2,9 +2,10 @@
 
 import numpy as np
 import pytest
-from designs import DESIGN, changed
+from designs import DESIGN, SPECIES, changed
 
 import bioscope as bio
+from bioscope.errors import FormatError, InvalidValueError
 
 
 def swum(tank: bio.fish.Tank, seconds: float, every: int = 4) -> dict[str, np.ndarray]:
@@ -252,13 +253,71 @@ def test_the_implicit_step_holds_where_the_others_break():
 
 
 @pytest.mark.capability("TF-020", "AA-021")
-def test_random_activation_is_survived_for_a_hundred_thousand_steps():
-    tank = bio.fish.Tank("anthias")
+@pytest.mark.parametrize("preset", ["calibrated", "published"])
+def test_random_activation_is_survived_for_a_hundred_thousand_published_steps(preset):
+    step = 0.055 * bio.fish.Tank("anthias", preset=preset).time_unit
+    tank = bio.fish.Tank("anthias", preset=preset, dt=step)
     rng = np.random.default_rng(1)
     for _ in range(2500):
         tank.step(rng.uniform(0, 1, 12), steps=40)
-    tank.step(np.zeros(12), steps=3000)
+    assert np.isfinite(tank.nodes).all()
+    tank.step(np.zeros(12), steps=9000)
     assert elastic_rest(tank) < 0.01
+
+
+@pytest.mark.capability("TF-017", "TF-020")
+def test_the_published_fish_swims_as_fast_as_its_table_says():
+    tank = bio.fish.Tank("anthias", preset="published")
+    tank.swim(tank.cruise)
+    tank.kick((0, 0, tank.cruise))
+    tank.run(40 * tank.length / tank.cruise)
+    start = tank.center
+    tank.run(10 * tank.length / tank.cruise)
+    speed = np.linalg.norm(tank.center - start) / (10 * tank.length / tank.cruise)
+    assert speed == pytest.approx(tank.cruise, rel=0.1)
+
+
+@pytest.mark.parametrize(
+    ("call", "field"),
+    [
+        (lambda tank: tank.step(steps=-1), "steps"),
+        (lambda tank: tank.step(steps=10**30), "steps"),
+        (lambda tank: tank.step(steps=1.5), "steps"),
+        (lambda tank: tank.step("fast"), "activations"),
+        (lambda tank: tank.run(-1.0), "seconds"),
+        (lambda tank: tank.swim("fast"), "speed"),
+        (lambda tank: tank.swim(None), "speed"),
+        (lambda tank: tank.turn(float("inf")), "angle"),
+        (lambda tank: tank.kick((1, 2)), "velocity"),
+        (lambda tank: tank.kick(None), "velocity"),
+        (lambda tank: tank.flow((0, 0, float("nan"))), "velocity"),
+        (lambda tank: tank.deform("flat"), "nodes"),
+        (lambda _: bio.fish.Tank(None), "species"),
+        (lambda _: bio.fish.Tank(preset=None), "preset"),
+        (lambda _: bio.fish.Tank(dt="short"), "dt"),
+        (lambda _: bio.fish.Tank(length=float("nan")), "length"),
+        (lambda _: bio.fish.Tank(water="salt"), "water"),
+    ],
+)
+def test_wrong_orders_are_refused_by_the_name_of_the_field(call, field):
+    tank = bio.fish.Tank("anthias")
+    with pytest.raises(InvalidValueError, match=field):
+        call(tank)
+    tank.step()
+
+
+def test_species_are_known_by_other_spellings_and_by_files(tmp_path):
+    def length(species):
+        return bio.fish.Tank(species).length
+
+    assert length("Emperor Angelfish") == length("emperor_angelfish")
+    assert length("butterfly fish") == length("butterfly-fish") == length("butterflyfish")
+    assert length("shark") == length("blacktip_shark")
+    mine = changed(SPECIES, tmp_path / "mine.toml", r"^length = .*$", "length = 0.5")
+    assert length(mine) == length(tmp_path / "mine.toml") == pytest.approx(0.5)
+    (tmp_path / "noise.toml").write_bytes(b"\xff\xfe")
+    with pytest.raises(FormatError, match=r"noise\.toml"):
+        length(tmp_path / "noise.toml")
 
 
 def test_the_calibrated_fish_strides_longer_than_the_published_one():

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+import operator
+from os import PathLike, fspath
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
@@ -10,6 +12,7 @@ import numpy as np
 
 from bioscope import _engine
 from bioscope.errors import InvalidValueError
+from bioscope.fish.species import Species, asked_species
 from bioscope.world.field import Current
 
 if TYPE_CHECKING:
@@ -19,6 +22,8 @@ if TYPE_CHECKING:
 
 Preset: TypeAlias = Literal["calibrated", "published"]
 """The calibrated body, or the constants that were published."""
+
+_MOST_STEPS = 2**32 - 1
 
 
 class Tank:
@@ -34,20 +39,21 @@ class Tank:
     Parameters
     ----------
     species
-        A species by name, for its length and its cruising speed.
+        A species by name, or the path of a species file (.toml), for its length and its cruising
+        speed.
     preset
         `calibrated`: shape, muscles and water by measurement, so that the fish swims as fishes do.
-        `published`: the constants, the water force and the solver of the source; its controllers
-        run blindly, as there. Or the path of a design file of your own (.toml), made by changing
-        those of `crates/organism/bioscope_motion/tables`.
+        `published`: the constants and the water force of the source; its controllers run blindly,
+        as there. Or the path of a design file of your own (.toml), made by changing those of
+        `crates/organism/bioscope_motion/tables`.
     dt
         Seconds per step; by default that for which the design is calibrated: 0.165 time units, or
         the published 0.055.
     length
         Metres from snout to tail; by default that of the species.
     integrator
-        `implicit` (default of `calibrated`), `semi_implicit` (the published scheme),
-        `symplectic` or `explicit`.
+        `implicit` (default), `semi_implicit` (the published scheme, which needs steps of at most
+        0.03 time units), `symplectic` or `explicit`.
     water
         Thickness of the medium: 0 is air, 1 water, more is oil.
 
@@ -62,19 +68,28 @@ class Tank:
 
     def __init__(
         self,
-        species: str = "anthias",
-        preset: Preset | str = "calibrated",
+        species: Species = "anthias",
+        preset: Preset | str | PathLike[str] = "calibrated",
         *,
         dt: float | None = None,
         length: float | None = None,
         integrator: str | None = None,
         water: float = 1.0,
     ) -> None:
-        design: str | tuple[str, str] = preset
-        if preset.endswith(".toml"):
-            design = (preset, Path(preset).read_text(encoding="utf-8"))
-        self._engine = _engine.Tank(species, design, dt, length, integrator, water)
-        self._engine.set_feedback(preset != "published")
+        if not isinstance(preset, str | PathLike):
+            expected = "calibrated, published, or the path of a design file (.toml)"
+            raise InvalidValueError(f"preset = {preset!r}: expected {expected}")
+        name = fspath(preset)
+        design: str | tuple[str, str] = name
+        if name.endswith(".toml"):
+            design = (name, Path(name).read_text(encoding="utf-8"))
+        step = None if dt is None else _finite("dt", dt)
+        size = None if length is None else _finite("length", length)
+        thickness = _finite("water", water)
+        self._engine = _engine.Tank(
+            asked_species(species), design, step, size, integrator, thickness
+        )
+        self._engine.set_feedback(name != "published")
 
     def step(self, activations: ArrayLike | None = None, steps: int = 1) -> None:
         """Advance by `steps` steps of `dt`.
@@ -86,17 +101,17 @@ class Tank:
         Raises
         ------
         InvalidValueError
-            For other than 12 numbers of 0 to 1.
+            For other than 12 numbers of 0 to 1, and steps that are no whole number of 0 or more.
         LimitError
             If the body came apart; it has been put back into its shape, at rest.
         """
         if activations is not None:
-            activations = np.asarray(activations, dtype=np.float64).ravel()
-        self._engine.step(activations, steps)
+            activations = _numbers("activations", activations).ravel()
+        self._engine.step(activations, _whole("steps", steps))
 
     def run(self, seconds: float) -> None:
         """Advance by this time, in steps of `dt`, as the motor controllers want."""
-        self.step(steps=max(0, round(_finite("seconds", seconds) / self.dt)))
+        self.step(steps=round(_finite("seconds", seconds, least=0.0) / self.dt))
 
     def swim(self, speed: float) -> None:
         """Swim ahead at this speed through the water, m/s; the top speed if it is more."""
@@ -140,8 +155,7 @@ class Tank:
 
     def kick(self, velocity: Sequence[float]) -> None:
         """Add this velocity (x, y, z), m/s, to the whole body."""
-        x, y, z = (_finite("velocity", axis) for axis in velocity)
-        self._engine.kick((x, y, z))
+        self._engine.kick(_velocity(velocity))
 
     def place(self, *, yaw: float = 0.0, pitch: float = 0.0, roll: float = 0.0) -> None:
         """Set the fish down at the origin, at rest, turned by these angles in radians."""
@@ -150,7 +164,7 @@ class Tank:
 
     def deform(self, nodes: ArrayLike) -> None:
         """Put the nodes at these places (23, 3) in metres, at rest."""
-        self._engine.deform(np.asarray(nodes, dtype=np.float64))
+        self._engine.deform(_numbers("nodes", nodes))
 
     def flow(self, velocity: Sequence[float] | Current) -> None:
         """Let the water flow with this velocity (x, y, z), m/s, or as a `bioscope.Current` has it.
@@ -160,8 +174,7 @@ class Tank:
         if isinstance(velocity, Current):
             self._engine.set_current(velocity._field)
             return
-        x, y, z = (_finite("velocity", axis) for axis in velocity)
-        self._engine.set_flow((x, y, z))
+        self._engine.set_flow(_velocity(velocity))
 
     def feedback(self, watched: bool) -> None:
         """Let the controllers watch heading and speed, or run blindly as in the source."""
@@ -298,8 +311,42 @@ class Tank:
 
 
 def _finite(name: str, value: float, *, least: float = -math.inf, most: float = math.inf) -> float:
-    """Return the number, or raise if it is not finite or out of range."""
-    number = float(value)
+    """Return the number, or raise if it is none, not finite or out of range."""
+    try:
+        number = float(value)
+    except (TypeError, ValueError):
+        number = math.nan
     if not math.isfinite(number) or not least <= number <= most:
-        raise InvalidValueError(f"{name} = {value}: expected a number of {least:g} to {most:g}")
+        bounds = "" if least == -math.inf else f", {least:g} or more"
+        bounds = bounds if most == math.inf else f" of {least:g} to {most:g}"
+        raise InvalidValueError(f"{name} = {value!r}: expected a finite number{bounds}")
     return number
+
+
+def _whole(name: str, value: int) -> int:
+    """Return the whole number, or raise."""
+    try:
+        number = operator.index(value)
+    except TypeError:
+        number = -1
+    if not 0 <= number <= _MOST_STEPS:
+        expected = f"a whole number of 0 to {_MOST_STEPS}"
+        raise InvalidValueError(f"{name} = {value!r}: expected {expected}")
+    return number
+
+
+def _numbers(name: str, values: ArrayLike) -> NDArray[np.float64]:
+    """Return the array, or raise."""
+    try:
+        return np.asarray(values, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise InvalidValueError(f"{name} = {values!r}: expected an array of numbers") from None
+
+
+def _velocity(velocity: Sequence[float]) -> tuple[float, float, float]:
+    """Return the three numbers, or raise."""
+    numbers = _numbers("velocity", velocity)
+    if numbers.shape != (3,) or not np.isfinite(numbers).all():
+        raise InvalidValueError(f"velocity = {velocity!r}: expected three finite numbers")
+    x, y, z = numbers.tolist()
+    return x, y, z

@@ -28,6 +28,22 @@ struct State {
     time: f64,
 }
 
+/// A species by name, or by the name and text of its file.
+#[derive(FromPyObject)]
+enum Species {
+    Name(String),
+    File(String, String),
+}
+
+impl Species {
+    fn get(&self) -> Result<Arc<FishSpecies>> {
+        match self {
+            Self::Name(name) => FishSpecies::named(name),
+            Self::File(name, text) => Ok(Arc::new(FishSpecies::parse(text, name)?)),
+        }
+    }
+}
+
 /// A ready-made design by name, or a design file by name and text.
 #[derive(FromPyObject)]
 enum Preset {
@@ -49,14 +65,14 @@ impl Tank {
     #[new]
     #[pyo3(signature = (species, preset, dt=None, length=None, integrator=None, water=1.0))]
     fn new(
-        species: &str,
+        species: Species,
         preset: Preset,
         dt: Option<f64>,
         length: Option<f64>,
         integrator: Option<&str>,
         water: f64,
     ) -> PyResult<Self> {
-        Self::build(species, &preset, (dt, length), (integrator, water)).map_err(to_python)
+        Self::build(&species, &preset, (dt, length), (integrator, water)).map_err(to_python)
     }
 
     /// Advances by `steps` steps; with activations, which give the contraction of the 12 muscles, else as the
@@ -304,12 +320,12 @@ impl Tank {
 
 impl Tank {
     fn build(
-        species: &str,
+        species: &Species,
         preset: &Preset,
         (dt, length): (Option<f64>, Option<f64>),
         (integrator, water): (Option<&str>, f64),
     ) -> Result<Self> {
-        let species = FishSpecies::named(species)?;
+        let species = species.get()?;
         let mut model = preset.model()?;
         if let Some(name) = integrator {
             model.mechanics.integrator = named_integrator(name)?;

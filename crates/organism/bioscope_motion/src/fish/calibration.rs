@@ -35,10 +35,14 @@ pub struct Swimming {
     pub whole: bool,
 }
 
-/// Beats that are swum in, and beats that are measured.
+/// Beats that are swum in at least, and beats that are measured.
 const BEATS: [f64; 2] = [7.0, 4.0];
+/// Relative change of speed from one measurement to the next below which a fish swims steadily.
+const STEADY: f64 = 0.01;
+/// Most measurements until all swim steadily: a body without friction coasts for a hundred beats.
+const MEASUREMENTS: usize = 100;
 
-/// Measures strokes, begun at half a body length per beat, without feedback.
+/// Measures strokes, begun at half a body length per beat, without feedback, once they have become steady.
 ///
 /// # Errors
 /// For impossible designs.
@@ -60,17 +64,38 @@ pub fn measure_strokes(design: &FishDesign, strokes: &[Stroke]) -> Result<Vec<Sw
         school.command(index, Command { speed, ..Command::default() })?;
     }
     let slowest = strokes.iter().map(|stroke| stroke.frequency).fold(f64::MAX, f64::min);
-    let count = ((BEATS[0] + BEATS[1]) / slowest / step) as usize;
+    let steps = |beats: f64| (beats / slowest / step) as usize;
+    school.advance_in(step * steps(BEATS[0]) as f64, steps(BEATS[0]));
+    let mut found = measured(&mut school, strokes, (step, steps(BEATS[1])));
+    for _ in 1..MEASUREMENTS {
+        let later = measured(&mut school, strokes, (step, steps(BEATS[1])));
+        let steady = found.iter().zip(&later).all(|(earlier, later)| {
+            (later.speed - earlier.speed).abs() <= STEADY * later.speed.abs() || !later.whole
+        });
+        found = later;
+        if steady {
+            break;
+        }
+    }
+    Ok(found)
+}
+
+/// How all swim during so many steps.
+fn measured(
+    school: &mut Swimmers<Lanes>,
+    strokes: &[Stroke],
+    (step, count): (f64, usize),
+) -> Vec<Swimming> {
     let mut tracks: Vec<Vec<Track>> = vec![Vec::with_capacity(count); strokes.len()];
     for _ in 0..count {
         school.advance_in(step, 1);
         for (index, track) in tracks.iter_mut().enumerate() {
-            track.push(Track::of(&school, index));
+            track.push(Track::of(school, index));
         }
     }
     let whole = |index| school.repairs(index) == 0;
     let each = strokes.iter().zip(&tracks).enumerate();
-    Ok(each.map(|(index, (stroke, track))| summary(stroke, track, step, whole(index))).collect())
+    each.map(|(index, (stroke, track))| summary(stroke, track, step, whole(index))).collect()
 }
 
 /// Places on the level at one moment: `[x, z]`.

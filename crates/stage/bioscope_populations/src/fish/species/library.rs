@@ -37,13 +37,27 @@ pub fn names() -> Vec<&'static str> {
 }
 
 pub fn named(name: &str) -> Result<Arc<FishSpecies>> {
-    let number = FILES.iter().position(|(known, _)| *known == name).ok_or_else(|| {
+    let number = number(name).ok_or_else(|| {
         let known = names().into_iter().map(String::from).collect();
         Error::Unknown { kind: "species of fish", name: name.to_owned(), known }
     })?;
     if let Some(species) = READ[number].get() {
         return Ok(Arc::clone(species));
     }
-    let species = Arc::new(FishSpecies::parse(FILES[number].1, &format!("{name}.toml"))?);
+    let (name, text) = FILES[number];
+    let species = Arc::new(FishSpecies::parse(text, &format!("{name}.toml"))?);
     Ok(Arc::clone(READ[number].get_or_init(|| species)))
+}
+
+/// Which species is called so, however its words are joined (`Emperor angelfish`, `butterfly fish`); or the first
+/// that is one of these (`shark`).
+fn number(name: &str) -> Option<usize> {
+    let joined = |name: &str| -> String {
+        let letters = name.chars().filter(|letter| !matches!(letter, '_' | '-' | ' '));
+        letters.flat_map(char::to_lowercase).collect()
+    };
+    let asked = joined(name);
+    let is_one = |known: &str| known.rsplit_once('_').is_some_and(|(_, family)| family == asked);
+    let whole = FILES.iter().position(|(known, _)| joined(known) == asked);
+    whole.or_else(|| FILES.iter().position(|(known, _)| is_one(known)))
 }
