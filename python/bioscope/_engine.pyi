@@ -1,6 +1,6 @@
 """Types of the compiled engine; `crates/stage/bioscope_python` is its source."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from os import PathLike
 from typing import Any, Final, Self, SupportsFloat, SupportsIndex, TypeAlias, final
 
@@ -75,7 +75,9 @@ def sine(angle: _Real) -> float: ...
 def current(direction: _Numbers, **parameters: _Real) -> Field: ...
 def decode_png(file: bytes) -> _Bytes: ...
 def encode_png(pixels: _Bytes) -> bytes: ...
-def fish_with_minds(options: str, make: Callable[[], object], kinds: Sequence[str]) -> Resident: ...
+def fish_with_minds(
+    options: str, parameters: dict[str, float], make: Callable[[], object]
+) -> Resident: ...
 def amounts_sheet(
     values: _Floats, low: tuple[float, float, float], cell: _Real, most: _Real
 ) -> Mesh: ...
@@ -534,7 +536,7 @@ class SoundTrack:
 class Tank:
     def __new__(
         cls,
-        species: str,
+        species: str | tuple[str, str],
         preset: str | tuple[str, str],
         dt: _Real | None = None,
         length: _Real | None = None,
@@ -626,11 +628,17 @@ class World:
     def __new__(cls, seed: SupportsIndex, dt: _Real) -> Self: ...
     @staticmethod
     def restore(
-        data: bytes, populations: Sequence[str], fields: Sequence[str], minds: Sequence[str]
+        data: bytes,
+        populations: Sequence[str],
+        fields: Sequence[str],
+        minds: Mapping[str, object],
     ) -> World: ...
     @staticmethod
     def replay(
-        data: bytes, populations: Sequence[str], fields: Sequence[str], minds: Sequence[str]
+        data: bytes,
+        populations: Sequence[str],
+        fields: Sequence[str],
+        minds: Mapping[str, object],
     ) -> World: ...
     @property
     def seed(self) -> int: ...

@@ -2,12 +2,19 @@
 
 from __future__ import annotations
 
-from typing import Any, ClassVar
+import copy
+import inspect
+from collections.abc import Callable
+from typing import Any, ClassVar, Protocol, Self
 
-from bioscope.errors import UnknownNameError
+from bioscope.errors import InvalidValueError, UnknownNameError
 from bioscope.world import state
 
-_kinds: dict[str, type[Mind]] = {}
+Decision = Callable[[dict[str, Any]], dict[str, Any]]
+"""A function of percepts that returns what an animal wants; see `Mind.decide`."""
+
+_classes: dict[str, dict[str, type[Mind]]] = {}
+"""All classes by kind, then by module and name; the class defined last comes last."""
 
 
 class Mind:
@@ -33,7 +40,9 @@ class Mind:
         super().__init_subclass__(**keywords)
         if "kind" not in cls.__dict__:
             cls.kind = cls.__name__
-        _kinds[cls.kind] = cls
+        alike = _classes.setdefault(cls.kind, {})
+        alike.pop(_whole_name(cls), None)
+        alike[_whole_name(cls)] = cls
 
     def decide(self, percepts: dict[str, Any]) -> dict[str, Any]:
         """Return what the animal wants now.
@@ -64,20 +73,120 @@ class Mind:
     def _save(self) -> bytes:
         return state.to_bytes(type(self).__name__, vars(self))
 
+    @classmethod
+    def _rebuilt(cls, data: bytes) -> Self:
+        """Bring back a mind of this class from its saved state, without calling `__init__`."""
+        mind = cls.__new__(cls)
+        vars(mind).update(state.from_bytes(cls.__name__, data))
+        return mind
 
-def kinds() -> list[str]:
-    """Return the kinds of all mind classes."""
-    return list(_kinds)
+
+class Reviving(Protocol):
+    """What brings minds back from their saved states: a class of them, usually."""
+
+    def _rebuilt(self, data: bytes) -> Mind: ...
 
 
-def rebuild(kind: str, data: bytes) -> Mind:
-    """Bring back a mind of this kind from its saved state, without calling `__init__`."""
+class _Ambiguous:
+    """Stands for several classes of one kind, of which saved states do not say which they mean."""
+
+    def __init__(self, kind: str, names: list[str]) -> None:
+        self._message = (
+            f"several classes of minds are of the kind '{kind}' ({', '.join(names)}): "
+            "give each a `kind` of its own"
+        )
+
+    def _rebuilt(self, data: bytes) -> Mind:
+        del data
+        raise UnknownNameError(self._message)
+
+
+def kinds() -> dict[str, Reviving]:
+    """Return the classes of minds by the kinds under which saved worlds find them.
+
+    Of classes defined again under the same name, and of those defined within functions, the last.
+    """
+    found: dict[str, Reviving] = {}
+    for kind, alike in _classes.items():
+        lasting = [name for name in alike if "<" not in name]
+        found[kind] = _Ambiguous(kind, lasting) if len(lasting) > 1 else [*alike.values()][-1]
+    return found
+
+
+def from_function(decide: Decision) -> type[Mind]:
+    """Return a class of minds that decide by this function and remember nothing.
+
+    Populations take the function itself as well. Its kind is its name; that of a lambda says where
+    it is written.
+
+    Examples
+    --------
+    >>> def drift(percepts):
+    ...     return {"behavior": "drift", "heading": percepts["flow"], "speed": 0.3}
+    >>> from_function(drift).kind
+    'drift'
+    """
+    kind = name = getattr(decide, "__name__", type(decide).__name__)
+    if name == "<lambda>":
+        name = "Lambda"
+        kind = f"lambda, {decide.__module__}, line {decide.__code__.co_firstlineno}"
+    members = {
+        "__module__": decide.__module__,
+        "__qualname__": getattr(decide, "__qualname__", name),
+        "__doc__": decide.__doc__,
+        "kind": kind,
+        "decide": lambda self, percepts: decide(percepts),
+    }
+    return type(name, (Mind,), members)
+
+
+def maker(mind: object) -> Callable[[], Mind]:
+    """Return what makes one mind after the other, as somebody asked for them.
+
+    Parameters
+    ----------
+    mind
+        A class of minds or another function without arguments that returns one; a function of
+        percepts; or a mind, of which each animal gets a copy.
+
+    Raises
+    ------
+    InvalidValueError
+        For anything else, also from what is returned.
+    """
+    if isinstance(mind, Mind):
+        return lambda: copy.deepcopy(mind)
+    if not callable(mind):
+        raise InvalidValueError(f"mind = {mind!r}: expected {_EXPECTED}")
+    make = from_function(mind) if _takes_percepts(mind) else mind
+
+    def one() -> Mind:
+        made = make()
+        if not isinstance(made, Mind):
+            raise InvalidValueError(f"mind: made {made!r}: expected {_EXPECTED}")
+        return made
+
+    return one
+
+
+_EXPECTED = (
+    "the name of a mind of the engine's, a `bioscope.Mind`, a class of them, or a function of "
+    "percepts"
+)
+
+
+def _takes_percepts(function: Callable[..., Any]) -> bool:
+    """Say whether a function has to be given percepts, or takes whatever it is given."""
+    if isinstance(function, type) and issubclass(function, Mind):
+        return False
     try:
-        cls = _kinds[kind]
-    except KeyError:
-        raise UnknownNameError(
-            f"unknown mind '{kind}': import the module that defines it first"
-        ) from None
-    mind = cls.__new__(cls)
-    vars(mind).update(state.from_bytes(cls.__name__, data))
-    return mind
+        parameters = inspect.signature(function).parameters.values()
+    except (TypeError, ValueError):  # Functions of some C modules do not tell.
+        return False
+    positional = (inspect.Parameter.POSITIONAL_ONLY, inspect.Parameter.POSITIONAL_OR_KEYWORD)
+    required = (one.kind in positional and one.default is one.empty for one in parameters)
+    return any(required) or any(one.kind is one.VAR_POSITIONAL for one in parameters)
+
+
+def _whole_name(cls: type[Mind]) -> str:
+    return f"{cls.__module__}.{cls.__qualname__}"

@@ -2,31 +2,72 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
+import numpy as np
+
 from bioscope import _engine, minds
+from bioscope.errors import InvalidValueError
+from bioscope.fish.species import Species, asked_species
 from bioscope.populations.native import Asked, asked_text
 from bioscope.world.population import Native
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from bioscope.minds import Mind
+    from numpy.typing import NDArray
 
-    AnyMind = Callable[[], Mind] | minds.FishMind | str
+    from bioscope.minds import Mind
+    from bioscope.minds.own import Decision
+    from bioscope.world.world import World
+
+    AnyMind = Mind | Callable[[], Mind] | Decision | minds.FishMind | str
 
 Vector = tuple[float, float, float]
 
 
-def _species(species: str) -> object:
-    """Return the engine's form of a species: its name, or the name and text of its file."""
-    if species.endswith(".toml"):
-        return (species, Path(species).read_text(encoding="utf-8"))
-    return species
+class Fishes(Asked):
+    """Fishes whose inner life can be asked for as arrays, in the order of their ids."""
+
+    _mind_classes: tuple[type[Mind], ...] = ()
+
+    @property
+    def hunger(self) -> NDArray[np.float64]:
+        """Hunger (n,), 0 to 1, of fishes with a mind of the engine's.
+
+        Raises
+        ------
+        UnknownNameError
+            If their minds know no hunger; so for the others.
+        """
+        return self.values("hunger").astype(np.float64)
+
+    @property
+    def libido(self) -> NDArray[np.float64]:
+        """Libido (n,), 0 to 1."""
+        return self.values("libido").astype(np.float64)
+
+    @property
+    def fear(self) -> NDArray[np.float64]:
+        """Fear (n,), 0 to 1."""
+        return self.values("fear").astype(np.float64)
+
+    @property
+    def intention(self) -> NDArray[np.str_]:
+        """What they are about (n,): `wander`, `eat`, …, or the `behavior` of a mind of your own."""
+        return self.values("intention").astype(np.str_)
+
+    @property
+    def target(self) -> NDArray[np.int64]:
+        """Ids (n,) of what they are after; 0 for nobody."""
+        return self.values("target").astype(np.int64)
+
+    def _settled(self, world: World, name: str) -> None:
+        super()._settled(world, name)
+        world._minds.setdefault(name, self._mind_classes)
 
 
-class FishSchool(Asked):
+class FishSchool(Fishes):
     """A school of fish by Reynolds' rules: separation, alignment, cohesion, obstacles first.
 
     C. W. Reynolds, "Flocks, herds, and schools: a distributed behavioral model", SIGGRAPH 1987. The
@@ -55,7 +96,7 @@ class FishSchool(Asked):
 
     def __init__(
         self,
-        species: str = "anchovy",
+        species: Species = "anchovy",
         count: int = 100,
         *,
         center: Vector = (0.0, -3.0, 0.0),
@@ -65,14 +106,15 @@ class FishSchool(Asked):
         **parameters: float,
     ) -> None:
         if mind is not None:
-            radius = max(half) if half else 0.5 * count ** (1 / 3)
+            many = _count(count)
+            radius = max(half) if half else 0.5 * many ** (1 / 3)
             place = {"center": center, "radius": radius, "home": home}
-            options = {"species": _species(species), "count": count, "body": "muscle_swimmer"}
-            _with_mind(self, options | place, mind, parameters)
+            body = {"species": asked_species(species), "count": many, "body": "muscle_swimmer"}
+            _with_mind(self, body | place, mind, parameters)
             return
         options = {
-            "species": _species(species),
-            "count": count,
+            "species": asked_species(species),
+            "count": _count(count),
             "center": center,
             "half": half,
             "home": home,
@@ -80,7 +122,7 @@ class FishSchool(Asked):
         super().__init__("fish_school", options, parameters)
 
 
-class RoamingFish(Asked):
+class RoamingFish(Fishes):
     """Single fishes with eyes, touch, ears, a lateral line and a roamer's mind.
 
     They cruise through their home range, keep clear of what they touch or see ahead, inspect
@@ -98,10 +140,11 @@ class RoamingFish(Asked):
         Middle of their home range, metres; `center` if not given.
     mind
         A mind of the engine's by name (`intentions`, `behavior_network`, `free_flow`) or made by
-        one of those classes of `bioscope.minds`; or what is called once per fish for a mind of your
-        own (a `Mind` class will do). A roamer's if not given. With a mind of the engine's the
-        fishes have an artificial fish's senses: they see all within 15 times its size and smell
-        their food.
+        one of those classes of `bioscope.minds`. Or a mind of your own: a function of percepts that
+        returns what the fish wants (see `Mind.decide`), a `Mind` class or what else makes one
+        for each fish, or a `Mind` to be copied. A roamer's if not given. With a mind of the
+        engine's the fishes have an artificial fish's senses: they see all within 15 times its size
+        and smell their food.
     food
         Species that they smell as food, with a mind of your own; the engine's know their own.
     variation
@@ -121,7 +164,7 @@ class RoamingFish(Asked):
 
     def __init__(
         self,
-        species: str = "grey_reef_shark",
+        species: Species = "grey_reef_shark",
         count: int = 1,
         *,
         center: Vector = (0.0, -3.0, 0.0),
@@ -136,8 +179,8 @@ class RoamingFish(Asked):
         **parameters: float,
     ) -> None:
         options: dict[str, Any] = {
-            "species": _species(species),
-            "count": count,
+            "species": asked_species(species),
+            "count": _count(count),
             "center": center,
             "radius": radius,
             "home": home,
@@ -150,13 +193,28 @@ class RoamingFish(Asked):
         _with_mind(self, options, mind, parameters)
 
 
+def _count(count: int) -> int:
+    """Return the number, or raise if it is no whole number of 0 or more."""
+    if isinstance(count, bool) or not isinstance(count, int | np.integer) or count < 0:
+        raise InvalidValueError(f"count = {count!r}: expected a whole number, 0 or more")
+    return int(count)
+
+
 def _with_mind(
-    fish: Asked, options: dict[str, Any], mind: AnyMind | None, parameters: dict[str, float]
+    fish: Fishes, options: dict[str, Any], mind: AnyMind | None, parameters: dict[str, float]
 ) -> None:
     """Make single fishes with a mind of the engine's, of the user's own, or a roamer's."""
     if mind is not None and not isinstance(mind, (str, minds.FishMind)):
-        text = asked_text(options)
-        Native.__init__(fish, _engine.fish_with_minds(text, mind, minds.kinds()))
+        make = minds.maker(mind)
+        made: dict[type[Mind], None] = {}
+
+        def one() -> Mind:
+            another = make()
+            made[type(another)] = None
+            return another
+
+        Native.__init__(fish, _engine.fish_with_minds(asked_text(options), parameters, one))
+        fish._mind_classes = tuple(made)
         return
     if mind is not None:
         options["mind"] = minds.asked(mind).request

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from bioscope import _engine, minds
+from bioscope.errors import InvalidValueError
 from bioscope.files import naming, written_whole
 from bioscope.json_text import json_text
 from bioscope.world import field as fields
@@ -60,6 +61,7 @@ class World:
         self.cameras = Cameras(self)
         """Named points of view."""
         self._events = EventLog()
+        self._minds: dict[str, tuple[type[minds.Mind], ...]] = {}
 
     @classmethod
     def _of(cls, engine: _engine.World) -> World:
@@ -204,7 +206,15 @@ class World:
         return self._engine.statistics()
 
     def save(self, path: str | PathLike[str]) -> None:
-        """Store the world in a file; `World.restore` continues it bit by bit as it would have."""
+        """Store the world in a file; `World.restore` continues it bit by bit as it would have.
+
+        Raises
+        ------
+        InvalidValueError
+            If minds of different classes that live here are of one kind, which is all that a file
+            says of their class.
+        """
+        self._tell_minds_apart()
         with written_whole(path) as temporary:
             temporary.write_bytes(self._engine.save())
 
@@ -276,12 +286,26 @@ class World:
         ------
         RuntimeError
             If `record` was not called.
+        InvalidValueError
+            See `save`.
         """
+        self._tell_minds_apart()
         data = self._engine.recording()
         if data is None:
             raise RuntimeError("nothing is being recorded: call world.record() first")
         with written_whole(path) as temporary:
             temporary.write_bytes(data)
+
+    def _tell_minds_apart(self) -> None:
+        """Raise if a file could not tell whose class is which."""
+        classes: dict[str, type[minds.Mind]] = {}
+        for population, own in self._minds.items():
+            for one in own:
+                if classes.setdefault(one.kind, one) is not one:
+                    raise InvalidValueError(
+                        f"the minds of '{population}' are of the kind '{one.kind}' as others of "
+                        "this world are: give each class a `kind` of its own"
+                    )
 
     @classmethod
     def replay(cls, path: str | PathLike[str]) -> World:

@@ -34,7 +34,7 @@ pub const KINDS: [&str; 11] = [
 ];
 
 /// Most fishes with minds of their own in one population.
-const MOST_SINGLE_FISHES: usize = 20_000;
+pub const MOST_SINGLE_FISHES: usize = 20_000;
 
 /// A population of this kind with these options (a JSON object with the field names of its options
 /// struct) and parameters.
@@ -52,7 +52,7 @@ pub fn population(
         "plankton" => Box::new(Plankton::new(read(kind, options)?)?),
         "plants" => Box::new(Plants::new(read(kind, options)?)?),
         "props" => Box::new(Props::new(read(kind, options)?)?),
-        "roaming_fish" => Box::new(fish_with_minds(options, &|| None, Arc::default())?),
+        "roaming_fish" => Box::new(roaming(options, &|| None, Arc::default())?),
         "rocks" => Box::new(Rocks::new(read(kind, options)?)?),
         "stand" => Box::new(Stand::new(read(kind, options)?)?),
         _ => {
@@ -89,13 +89,29 @@ fn tuned(
 
 fn read<T: DeserializeOwned>(kind: &str, options: &str) -> Result<T> {
     serde_json::from_str(options).map_err(|error| {
+        let whole = error.to_string();
+        // The text is ours, one line: only the field tells a user where to look.
+        let plain = whole.split(" at line ").next().unwrap_or(&whole);
+        let plain = WORDS.iter().fold(plain.to_owned(), |text, (type_name, word)| {
+            text.replace(&format!("expected {type_name}"), &format!("expected {word}"))
+        });
         let what = match field_at(options, error.column()) {
-            Some(field) => format!("option '{field}': {error}"),
-            None => error.to_string(),
+            Some(field) if !plain.starts_with("missing field") => {
+                format!("option '{field}': {plain}")
+            }
+            _ => plain,
         };
         Error::format(kind, what)
     })
 }
+
+/// What types are called in messages.
+const WORDS: [(&str, &str); 4] = [
+    ("usize", "a whole number, 0 or more"),
+    ("u32", "a whole number, 0 or more"),
+    ("f32", "a number"),
+    ("f64", "a number"),
+];
 
 /// The outermost field of an object in one line of JSON in which this column lies, by which an error is understood.
 fn field_at(text: &str, column: usize) -> Option<&str> {
@@ -189,9 +205,18 @@ impl Roaming {
     }
 }
 
-/// Single fishes as `options` (a JSON object) asks for them, each with the mind that `mind` makes; `kinds`
-/// must know those minds.
+/// Single fishes as `options` (a JSON object) and parameters ask for them, each with the mind that `mind` makes;
+/// `kinds` must know those minds.
 pub fn fish_with_minds(
+    options: &str,
+    parameters: &BTreeMap<String, f64>,
+    mind: &dyn Fn() -> Option<Box<dyn Mind>>,
+    kinds: Arc<Kinds>,
+) -> Result<Box<dyn Population>> {
+    tuned(Box::new(roaming(options, mind, kinds)?), parameters)
+}
+
+fn roaming(
     options: &str,
     mind: &dyn Fn() -> Option<Box<dyn Mind>>,
     kinds: Arc<Kinds>,

@@ -1,3 +1,4 @@
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use bioscope_core::{
@@ -21,11 +22,11 @@ pub struct PythonMind {
 }
 
 impl PythonMind {
-    /// Brings one back from its saved state by the class registered under its name.
-    fn rebuild(name: &str, bytes: &[u8]) -> Result<Self> {
+    /// Brings one of this class back from its saved state.
+    fn rebuild(class: &Py<PyAny>, name: &str, bytes: &[u8]) -> Result<Self> {
         let build = |py: Python<'_>| -> PyResult<Py<PyAny>> {
-            let module = py.import("bioscope.minds")?;
-            module.call_method1("rebuild", (name, PyBytes::new(py, bytes))).map(Bound::unbind)
+            let state = PyBytes::new(py, bytes);
+            class.bind(py).call_method1("_rebuilt", (state,)).map(Bound::unbind)
         };
         let object = Python::attach(build).map_err(|error| from_python(name, "restore", error))?;
         Ok(Self { object, name: name.to_owned() })
@@ -46,7 +47,8 @@ impl Mind for PythonMind {
         let call = |py: Python<'_>| {
             let noticed = percepts_dict(py, percepts, random)?;
             let wanted = self.object.bind(py).call_method1("decide", (noticed,))?;
-            intention(&wanted.cast_into::<PyDict>()?)
+            let wrong = || to_python(Error::value("decide", &wanted, "a dict of what it wants"));
+            intention(wanted.cast::<PyDict>().map_err(|_| wrong())?)
         };
         let intention =
             Python::attach(call).map_err(|error| from_python(&self.name, "decide", error))?;
@@ -65,35 +67,51 @@ impl Mind for PythonMind {
     }
 }
 
-/// Fish with minds made by a Python function; `options` is a JSON object.
+/// Classes of minds by the kinds under which their states are saved.
+pub type Classes = BTreeMap<String, Py<PyAny>>;
+
+/// Fish with minds made by a Python function; `options` is a JSON object. Newcomers among them have minds of the
+/// same classes, whatever else is called like these.
 #[pyfunction]
 pub fn fish_with_minds(
     options: &str,
+    parameters: BTreeMap<String, f64>,
     make: &Bound<'_, PyAny>,
-    kinds: Vec<String>,
 ) -> PyResult<Resident> {
     let mut minds = Vec::new();
+    let mut classes = Classes::new();
     let count = serde_json::from_str::<serde_json::Value>(options)
         .ok()
         .and_then(|options| options["count"].as_u64())
+        // More are refused below: none is made for them.
+        .filter(|&count| count <= catalog::MOST_SINGLE_FISHES as u64)
         .unwrap_or(0);
     for _ in 0..count {
         let object = make.call0()?;
-        let name: String = object.get_type().getattr("kind")?.extract()?;
+        let class = object.get_type();
+        let name: String = class.getattr("kind")?.extract()?;
+        let known =
+            classes.entry(name.clone()).or_insert_with(|| class.clone().into_any().unbind());
+        if !known.bind(make.py()).is(&class) {
+            let expected = "one class of this kind: give the other a `kind` of its own";
+            return Err(to_python(Error::value("mind", name, expected)));
+        }
         minds.push(PythonMind { object: object.unbind(), name });
     }
+    minds.reverse();
     let minds = std::cell::RefCell::new(minds);
     let next = || minds.borrow_mut().pop().map(|mind| Box::new(mind) as Box<dyn Mind>);
-    let animals = catalog::fish_with_minds(options, &next, parts(kinds)).map_err(to_python)?;
-    Ok(Resident::new(Box::new(animals)))
+    let animals = catalog::fish_with_minds(options, &parameters, &next, parts(classes));
+    animals.map(Resident::new).map_err(to_python)
 }
 
-/// Constructors of the parts of animals, Python minds of these kinds among them.
-pub fn parts(kinds: Vec<String>) -> Arc<Kinds> {
+/// Constructors of the parts of animals, Python minds of these classes among them.
+pub fn parts(classes: Classes) -> Arc<Kinds> {
     let mut known = Kinds::default();
-    for kind in kinds {
+    for (kind, class) in classes {
         let name = kind.clone();
-        known.add_mind(&kind, move |bytes| Ok(Box::new(PythonMind::rebuild(&name, bytes)?)));
+        known
+            .add_mind(&kind, move |bytes| Ok(Box::new(PythonMind::rebuild(&class, &name, bytes)?)));
     }
     Arc::new(known)
 }
@@ -192,21 +210,23 @@ pub fn display(asked: &Bound<'_, PyDict>) -> PyResult<Display> {
     let mut display = Display::NONE;
     for (name, value) in asked.iter() {
         match name.extract::<String>()?.as_str() {
-            "sex" => display.sex = sex(value.extract()?)?,
-            "act" => display.act = act(&value.extract::<String>()?)?,
-            "partner" => display.partner = value.extract::<Option<u32>>()?.unwrap_or(NOTHING),
+            "sex" if value.is_none() => display.sex = Sex::Unknown,
+            "sex" => display.sex = sex(&word("display: sex", &value)?)?,
+            "act" => display.act = act(&word("display: act", &value)?)?,
+            "partner" => {
+                display.partner = identity("display: partner", &value)?.unwrap_or(NOTHING);
+            }
             other => return Err(unknown("part of a display", other, &["sex", "act", "partner"])),
         }
     }
     Ok(display)
 }
 
-fn sex(name: Option<String>) -> PyResult<Sex> {
-    match name.as_deref() {
-        None => Ok(Sex::Unknown),
-        Some("female") => Ok(Sex::Female),
-        Some("male") => Ok(Sex::Male),
-        Some(other) => Err(unknown("sex", other, &["female", "male"])),
+fn sex(name: &str) -> PyResult<Sex> {
+    match name {
+        "female" => Ok(Sex::Female),
+        "male" => Ok(Sex::Male),
+        other => Err(unknown("sex", other, &["female", "male"])),
     }
 }
 
@@ -226,15 +246,15 @@ fn intention(wanted: &Bound<'_, PyDict>) -> PyResult<Intention> {
     let mut intention = Intention { speed: 1.0, urgency: 0.5, ..Intention::default() };
     for (name, value) in wanted.iter() {
         match name.extract::<String>()?.as_str() {
-            "behavior" => intention.behavior = value.extract::<String>()?.into(),
+            "behavior" => intention.behavior = word("behavior", &value)?.into(),
             "heading" => intention.heading = vector("heading", &value)?,
             "speed" => intention.speed = number("speed", &value)?,
             "urgency" => intention.urgency = number("urgency", &value)?,
             "gaze" => intention.gaze = Some(vector("gaze", &value)?),
-            "target" => intention.target = value.extract()?,
+            "target" => intention.target = identity("target", &value)?,
             "brake" => intention.brake = number("brake", &value)?.clamp(0.0, 1.0),
             "mouth" => intention.mouth = number("mouth", &value)?.clamp(0.0, 1.0),
-            "display" => intention.display = display(&value.cast_into::<PyDict>()?)?,
+            "display" => intention.display = shown(&value)?,
             other => {
                 let known = [
                     "behavior", "heading", "speed", "urgency", "gaze", "target", "brake", "mouth",
@@ -245,6 +265,19 @@ fn intention(wanted: &Bound<'_, PyDict>) -> PyResult<Intention> {
         }
     }
     Ok(intention)
+}
+
+fn shown(value: &Bound<'_, PyAny>) -> PyResult<Display> {
+    let wrong = |_| to_python(Error::value("display", value, "a dict with sex, act, partner"));
+    display(value.cast::<PyDict>().map_err(wrong)?)
+}
+
+fn word(name: &str, value: &Bound<'_, PyAny>) -> PyResult<String> {
+    value.extract().map_err(|_| to_python(Error::value(name, value, "a word")))
+}
+
+fn identity(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Option<u32>> {
+    value.extract().map_err(|_| to_python(Error::value(name, value, "an id, or None")))
 }
 
 /// Three finite numbers.

@@ -12,6 +12,7 @@ use pyo3::types::{PyBytes, PyDict};
 use crate::camera::Camera;
 use crate::error::to_python;
 use crate::field::{Field, PythonField};
+use crate::mind::Classes;
 use crate::population::{PythonPopulation, Resident};
 use crate::scene::Scene;
 use crate::{values, view};
@@ -56,7 +57,7 @@ impl World {
 }
 
 /// Everything that saved worlds may hold, user's classes among them.
-fn registry(kinds: Vec<String>, fields: Vec<String>, minds: Vec<String>) -> Registry {
+fn registry(kinds: Vec<String>, fields: Vec<String>, minds: Classes) -> Registry {
     let mut registry = bioscope_populations::registry();
     bioscope_populations::add_animals(&mut registry, crate::mind::parts(minds));
     bioscope_populations::add_stands(&mut registry, crate::environments::revived);
@@ -86,7 +87,7 @@ impl World {
         data: &[u8],
         populations: Vec<String>,
         fields: Vec<String>,
-        minds: Vec<String>,
+        minds: Classes,
     ) -> PyResult<Self> {
         let registry = registry(populations, fields, minds);
         let world = py.detach(|| bioscope_world::World::restore(data, &registry));
@@ -392,7 +393,7 @@ impl World {
         data: &[u8],
         populations: Vec<String>,
         fields: Vec<String>,
-        minds: Vec<String>,
+        minds: Classes,
     ) -> PyResult<Self> {
         let registry = registry(populations, fields, minds);
         let world = py.detach(|| {
