@@ -12,23 +12,19 @@ from numpy.typing import NDArray
 import bioscope as bio
 from bioscope import _engine, worlds
 from bioscope.film import FilmOptions
+from bioscope.film.direction import Shot
 from bioscope.film.operator import Operator
 from bioscope.film.renderer import renderer
 
 FOLDER = Path(__file__).resolve().parents[1] / "docs/films"
 SIZE = (1280, 720)
-MOMENTS = {
-    "go_fish": (17.0, 20.0),
-    "jack_cousto": (9.5, 24.0),
-    "mating": (12.0, 54.0),
-    "preying": (5.0, 15.5),
-    "schooling": (8.0, 18.5),
-}
-"""Seconds of each film at which its stills are taken."""
+MOMENTS = {"schooling": (8.0, 18.5)}
+"""Seconds of a film at which its two stills are taken; of others their plates or longest shots."""
 HEAD = """# Films
 
 Five stories of artificial fishes. Nothing in them is animated by hand: each runs from a seed, and
-its camera follows a shot list, as a nature film does.
+its camera follows a shot list, as a nature film does. A trial run comes first: it tells what will
+happen, and the camera is there in time.
 
 ```sh
 bioscope films -o films                  # all five, with sound
@@ -46,9 +42,10 @@ def main() -> None:
     FOLDER.mkdir(parents=True, exist_ok=True)
     parts = [HEAD]
     for name, seed in worlds.films().items():
-        world = bio.load(name, seed=seed)
-        parts.append(section(name, sum(length for _, length in world.shots)))
-        for number, picture in enumerate(stills(world, MOMENTS[name]), start=1):
+        world, shots = bio.load(name, seed=seed), worlds.shots(name)
+        parts.append(section(name, sum(shot.seconds for shot in shots)))
+        moments = MOMENTS.get(name) or longest(shots)
+        for number, picture in enumerate(stills(world, shots, moments), start=1):
             (FOLDER / f"{name}-{number}.png").write_bytes(_engine.encode_png(picture))
     (FOLDER / "index.md").write_text("\n".join(parts), encoding="utf-8")
 
@@ -60,10 +57,22 @@ def section(name: str, seconds: float) -> str:
     return f"\n## {name} ({seconds:.0f} s)\n\n{text.strip()}\n\n{stills}\n"
 
 
-def stills(world: bio.World, moments: tuple[float, ...]) -> list[NDArray[np.uint8]]:
+def longest(shots: list[Shot]) -> tuple[float, ...]:
+    """Return the middles of the two longest shots, or of those that make plates, in order."""
+    ends = np.cumsum([shot.seconds for shot in shots])
+    ranked = sorted(range(len(shots)), key=lambda one: (not shots[one].plate, -shots[one].seconds))
+    return tuple(
+        float(ends[one] - shots[one].seconds + (shots[one].moment or shots[one].seconds / 2))
+        for one in sorted(ranked[:2])
+    )
+
+
+def stills(
+    world: bio.World, shots: list[Shot], moments: tuple[float, ...]
+) -> list[NDArray[np.uint8]]:
     """Return the pictures of the film at these moments."""
     painter = renderer(FilmOptions(seconds=1, size=SIZE))
-    operator, rate, pictures = Operator(world, None), 15, []
+    operator, rate, pictures = Operator(world, None, shots), 15, []
     for frame in range(round(max(moments) * rate) + 1):
         while world.time < frame / rate:
             world.step()

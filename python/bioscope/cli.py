@@ -242,7 +242,9 @@ def _still_to_make(
 @click.option("--renderer", default="preview", help="preview or path.")
 @click.argument("names", nargs=-1)
 def films(output: Path, size: str, renderer: str, names: tuple[str, ...]) -> None:
-    """Make the films of the artificial fishes, each from its seed by its own shot list.
+    """Make the films of the artificial fishes, each from its seed.
+
+    A trial run comes before the film, so that the camera is where something happens.
 
     NAMES are those to make; all if none. What is there already is not made again.
     """
@@ -251,9 +253,10 @@ def films(output: Path, size: str, renderer: str, names: tuple[str, ...]) -> Non
     seeds = worlds.films()
     for name, path in _still_to_make("film", names or list(seeds), seeds, output, ".mp4"):
         made = opened(name, seeds[name])
-        seconds = sum(length for _, length in made.shots)
+        shots = worlds.shots(name)
+        seconds = sum(shot.seconds for shot in shots)
         options = FilmOptions(seconds=seconds, size=parse_size(size), renderer=renderer)
-        film_world(made, path, options, say=say)
+        film_world(made, path, options, shots=shots, say=say)
 
 
 @command("stills", "bioscope stills -o stills --size 640x360")
@@ -270,10 +273,10 @@ def stills(output: Path, size: str, renderer: str, names: tuple[str, ...]) -> No
 
     plates = worlds.plates()
     for name, path in _still_to_make("still", names or list(plates), plates, output, ".png"):
-        plate = plates[name]
+        plate = worlds.plate(name)
         made = opened(plate.world, plate.seed)
         made.run(plate.time)
-        take_still(made, path, plate.camera, size=parse_size(size), renderer=renderer)
+        take_still(made, path, plate.shot, size=parse_size(size), renderer=renderer)
         say(f"{path}")
 
 

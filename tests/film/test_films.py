@@ -1,8 +1,12 @@
 """`bioscope films`: the five films by one command."""
 
+import importlib
+
 import pytest
 
 import bioscope as bio
+from bioscope.film.direction import Story
+from bioscope.film.operator import Operator
 
 FILMS = ["go_fish", "jack_cousto", "mating", "preying", "schooling"]
 
@@ -13,6 +17,41 @@ def test_there_are_five_and_each_has_a_shot_list_of_its_own_cameras():
         world = bio.load(name, seed=seed)
         assert {camera for camera, _ in world.shots} <= set(world.cameras)
         assert 20 <= sum(seconds for _, seconds in world.shots) <= 80
+
+
+EVENTS = {
+    "go_fish": ["hooked"],
+    "preying": ["caught"],
+    "mating": ["circled", "spawned"],
+    "jack_cousto": ["circled", "spawned"],
+}
+"""What each film is about."""
+
+
+@pytest.mark.parametrize("name", EVENTS)
+def test_after_a_trial_run_the_film_shows_what_it_is_about(name):
+    module = importlib.import_module(f"bioscope.worlds.{name}.world")
+    story = Story(module.world(module.FILM_SEED), module.TRIAL)
+    shots = module.direct(story)
+    assert 25 <= sum(shot.seconds for shot in shots) <= 80
+    assert all(1.5 <= shot.seconds <= 12 for shot in shots)
+    world = module.world(module.FILM_SEED)
+    operator = Operator(world, None, shots)
+    for event in [story.all(kind)[0] for kind in EVENTS[name]]:
+        who = [one for one in (event.subject, event.object) if one in story.species]
+        # Who is eaten is gone afterwards.
+        before = filmed(world, operator, event.time - 0.2)
+        assert all((before == one).mean() > 2e-4 for one in who), event
+        after = filmed(world, operator, event.time + 1.0)
+        assert sum((after == one).mean() for one in who) > 0.003, event
+
+
+def filmed(world, operator, until):
+    """Return whom the film's picture shows at a time: identities by pixel."""
+    while world.time < until:
+        world.step()
+        camera, _ = operator.camera(world.time, world.dt)
+    return bio.look(world.scene, camera, (160, 90)).identity
 
 
 def test_what_is_there_is_not_made_again(bioscope, tmp_path):

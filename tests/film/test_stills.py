@@ -22,10 +22,11 @@ PLATES = {
 def test_each_plate_shows_the_living_at_its_moment():
     plates = bio.worlds.plates()
     assert set(plates) == PLATES
-    for name, plate in plates.items():
+    for name in plates:
+        plate = bio.worlds.plate(name)
         world = bio.load(plate.world, seed=plate.seed)
         world.run(plate.time)
-        camera, _ = Operator(world, plate.camera).camera(0.0, 0.0)
+        camera, _ = Operator(world, None, [plate.shot]).camera(0.0, 0.0)
         view = bio.look(world.scene, camera, (96, 54))
         alive = [one for batch in world.scene.batches if batch.alive for one in batch.ids]
         shown = np.isin(view.identity, alive).mean()

@@ -9,7 +9,7 @@ from __future__ import annotations
 import shutil
 import time
 from collections import deque
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -28,6 +28,7 @@ from bioscope.film.renderer import renderer
 
 if TYPE_CHECKING:
     from bioscope._engine import Camera, Scene
+    from bioscope.film.direction import Shot
     from bioscope.world import World
 
 SAMPLE_RATE = 48_000
@@ -60,6 +61,7 @@ def film_world(
     output: Path | str | None,
     options: FilmOptions,
     *,
+    shots: Sequence[Shot] | None = None,
     frames: Path | str | None = None,
     say: Say = print,
 ) -> None:
@@ -73,6 +75,8 @@ def film_world(
         The MP4 to write; whole or not there. None for pictures only.
     options
         What the film is to be.
+    shots
+        Its shot list; the world's own if none.
     frames
         Folder for the pictures as PNG files, numbered from 1.
     say
@@ -93,7 +97,7 @@ def film_world(
         raise BioscopeError(f"{output}: expected a name that ends in .mp4")
     if folder is not None:
         folder.mkdir(parents=True, exist_ok=True)
-    shooting = Shooting(world, output, options, folder, say)
+    shooting = Shooting(world, output, options, shots, folder, say)
     shooting.shoot()
 
 
@@ -125,6 +129,7 @@ class Shooting:
         world: World,
         output: Path | None,
         options: FilmOptions,
+        shots: Sequence[Shot] | None,
         frames: Path | None,
         say: Say,
     ) -> None:
@@ -132,7 +137,7 @@ class Shooting:
         self._say = say
         self._encoder = None if output is None else encoder()
         self._work = _work_folder(output, frames)
-        self._operator = Operator(world, options.camera)
+        self._operator = Operator(world, options.camera, shots)
         self._renderer = renderer(options)
         self._started = time.perf_counter()
         self._progress = self._begun()

@@ -9,9 +9,12 @@ import numpy as np
 
 from bioscope import _engine
 from bioscope.errors import UnknownNameError
-from bioscope.film.steady import Steady
+from bioscope.film.direction import Shot
+from bioscope.film.steady import Beside, Steady
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from bioscope._engine import Camera
     from bioscope.world import World
 
@@ -19,55 +22,79 @@ _SECONDS_PER_SHOT = 5.0
 
 
 class Operator:
-    """Gives the camera of each picture: one throughout, or the world's shot list over and over."""
+    """Gives the camera of each picture: one throughout, or a shot list over and over.
 
-    def __init__(self, world: World, camera: str | None) -> None:
+    Parameters
+    ----------
+    world
+        The world that is filmed.
+    camera
+        The one camera; none for the shot list.
+    shots
+        The shot list; the world's own if none.
+    """
+
+    def __init__(
+        self, world: World, camera: str | None, shots: Sequence[Shot] | None = None
+    ) -> None:
         self._world = world
         names = list(world.cameras)
         if camera is not None:
             if camera not in names:
                 known = ", ".join(names) or "none"
                 raise UnknownNameError(f"unknown camera '{camera}'; this world has: {known}")
-            self._shots = [(camera, math.inf)]
+            self._shots = [Shot(math.inf, camera)]
+        elif shots:
+            self._shots = list(shots)
         else:
-            self._shots = world.shots or [(name, _SECONDS_PER_SHOT) for name in names]
+            listed = world.shots or [(name, _SECONDS_PER_SHOT) for name in names]
+            self._shots = [Shot(seconds, name) for name, seconds in listed]
         self._previous: Camera | None = None
-        self._steady: Steady | None = None
+        self._hands: Beside | Steady | None = None
         self._shot = -1
 
     def camera(self, seconds: float, dt: float) -> tuple[Camera, bool]:
         """Return the camera at `seconds` of the film, `dt` after the last, and whether it cuts."""
-        shot, name = self._at(seconds)
-        cut = shot != self._shot
-        if cut or self._steady is None:
-            found = (
-                self._world.cameras.now(name, None if cut else self._previous, dt) if name else None
-            )
-            self._steady = None if found is None else self._taken_in_hand(name, found)
-        else:
-            found = self._steady.camera(self._world.scene, dt)
+        number, shot = self._at(seconds)
+        cut = number != self._shot
+        found = None
+        if cut and shot is not None and not shot.camera:
+            self._hands = Beside(shot)
+        elif cut or self._hands is None:
+            found = self._rig(shot, cut, dt)
+        if found is None and self._hands is not None:
+            found = self._hands.camera(self._world.scene, dt)
         camera = found or self._previous or overview(self._world)
-        self._shot, self._previous = shot, camera
+        self._shot, self._previous = number, camera
         return camera, cut
+
+    def _rig(self, shot: Shot | None, cut: bool, dt: float) -> Camera | None:
+        """Return the world's camera of a shot; those that go with an animal are taken in hand."""
+        if shot is None:
+            return None
+        name = shot.camera
+        found = self._world.cameras.now(name, None if cut else self._previous, dt)
+        self._hands = None if found is None else self._taken_in_hand(name, found)
+        return found
 
     def _taken_in_hand(self, name: str, camera: Camera) -> Steady | None:
         """Return the hands that hold a camera which goes with an animal from here on."""
         rig = next(one for one in self._world.cameras.describe() if one["name"] == name)
         return Steady.begin(self._world.scene, rig, camera)
 
-    def _at(self, seconds: float) -> tuple[int, str]:
-        """Return the number of the shot and the name of its camera; empty without cameras."""
+    def _at(self, seconds: float) -> tuple[int, Shot | None]:
+        """Return the number of the shot and the shot; none without cameras."""
         if not self._shots:
-            return 0, ""
+            return 0, None
         if len(self._shots) == 1:
-            return 0, self._shots[0][0]
-        whole = sum(length for _, length in self._shots)
+            return 0, self._shots[0]
+        whole = sum(shot.seconds for shot in self._shots)
         turn, left = divmod(seconds, whole)
-        for number, (name, length) in enumerate(self._shots):
-            if left < length:
-                return int(turn) * len(self._shots) + number, name
-            left -= length
-        return int(turn) * len(self._shots) + len(self._shots) - 1, self._shots[-1][0]
+        for number, shot in enumerate(self._shots):
+            if left < shot.seconds:
+                return int(turn) * len(self._shots) + number, shot
+            left -= shot.seconds
+        return int(turn) * len(self._shots) + len(self._shots) - 1, self._shots[-1]
 
     def state(self) -> dict[str, Any]:
         """Return what is needed to go on later."""
@@ -75,16 +102,18 @@ class Operator:
         pose = None
         if camera is not None:
             pose = (camera.position, camera.rotation, camera.field_of_view)
-        steady = None if self._steady is None else self._steady.state()
-        return {"shot": self._shot, "pose": pose, "steady": steady}
+        hands = None if self._hands is None else self._hands.state()
+        return {"shot": self._shot, "pose": pose, "hands": hands}
 
     def restore(self, state: dict[str, Any]) -> None:
         """Go on from where `state` was taken."""
         self._shot = state["shot"]
-        pose = state["pose"]
+        pose, hands = state["pose"], state["hands"]
         self._previous = None if pose is None else _engine.Camera(*pose)
-        steady = state["steady"]
-        self._steady = None if steady is None else Steady.restored(steady)
+        self._hands = None
+        if hands is not None:
+            shot = self._shots[self._shot % len(self._shots)]
+            self._hands = Steady.restored(hands) if shot.camera else Beside.restored(shot, hands)
 
 
 def overview(world: World) -> Camera:

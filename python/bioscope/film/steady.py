@@ -1,7 +1,8 @@
-"""A camera in the hands of somebody who swims beside an animal.
+"""A camera in the hands of somebody who swims beside one animal, or beside several.
 
 It goes with the animal and looks where it is going, late and loosely. It stays on the side on which
-it is: while the animal turns it does not swing round with it, but comes about slowly.
+it is: while the animal turns it does not swing round with it, but comes about slowly. Several are
+kept in the picture together: the nearer they come to each other, the nearer comes the camera.
 """
 
 from __future__ import annotations
@@ -13,14 +14,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bioscope import _engine
+from bioscope.film.direction import drift, frame, lens
 
 if TYPE_CHECKING:
     from bioscope._engine import Camera, Scene
+    from bioscope.film.direction import Shot
 
 _PLACE_LAG, _AIM_LAG, _SIDE_LAG = 0.5, 0.35, 7.0
 """Time constants of going with the animal, of looking at it, of coming about, seconds."""
 _LEAD = 0.1
 """How far ahead of the animal it looks, as a share of its distance."""
+_BESIDE_LAG, _REACH_LAG = 0.3, 0.9
+"""Time constants of going with several and of coming nearer to them, seconds."""
 
 _Point = NDArray[np.float64]
 
@@ -93,6 +98,57 @@ class Steady:
         vars(steady).update(state)
         steady.place, steady.aim = np.array(state["place"]), np.array(state["aim"])
         return steady
+
+
+class Beside:
+    """The camera of one shot that goes with several animals.
+
+    It guesses their way, so that it is not behind those who swim straight on.
+    """
+
+    def __init__(self, shot: Shot) -> None:
+        self._shot = shot
+        self._middle: _Point | None = None
+        self._velocity = np.zeros(3)
+        self._reach = 0.0
+
+    def camera(self, scene: Scene, dt: float) -> Camera | None:
+        """Return the camera `dt` seconds later; none as long as nobody was there."""
+        found = frame(scene, self._shot.subjects)
+        if found is not None:
+            self._go(*found, dt, scene)
+        if self._middle is None:
+            return None
+        angle = self._shot.field_of_view
+        position = lens(self._middle, self._reach, self._shot.arm, angle)
+        return _engine.Camera.looking_at(position.tolist(), self._middle.tolist(), angle)
+
+    def _go(self, middle: _Point, reach: float, dt: float, scene: Scene) -> None:
+        if self._middle is None:
+            self._middle, self._reach = middle, reach
+            self._velocity = drift(scene, self._shot.subjects)
+        elif dt > 0.0:
+            # An alpha-beta filter: critically damped, and without a lag at constant velocity.
+            share = _share(dt, _BESIDE_LAG)
+            guess = self._middle + self._velocity * dt
+            wrong = middle - guess
+            self._middle = guess + wrong * share
+            self._velocity = self._velocity + wrong * (share**2 / (2.0 - share) / dt)
+            self._reach += (reach - self._reach) * _share(dt, _REACH_LAG)
+
+    def state(self) -> dict[str, Any]:
+        """Return what is needed to go on later."""
+        middle = None if self._middle is None else self._middle.tolist()
+        return {"middle": middle, "velocity": self._velocity.tolist(), "reach": self._reach}
+
+    @classmethod
+    def restored(cls, shot: Shot, state: dict[str, Any]) -> Beside:
+        """Go on from where `state` was taken."""
+        beside = cls(shot)
+        if state["middle"] is not None:
+            beside._middle = np.array(state["middle"])
+        beside._velocity, beside._reach = np.array(state["velocity"]), state["reach"]
+        return beside
 
 
 def _share(dt: float, lag: float) -> float:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from bioscope import _engine
 from bioscope.files import written_whole
+from bioscope.film.direction import Shot
 from bioscope.film.operator import Operator
 from bioscope.film.options import FilmOptions
 from bioscope.film.renderer import renderer as renderer_of
@@ -18,7 +19,7 @@ if TYPE_CHECKING:
 def take_still(
     world: World,
     output: Path | str,
-    camera: str | None = None,
+    camera: str | Shot | None = None,
     *,
     size: tuple[int, int] = (1280, 720),
     renderer: str = "preview",
@@ -32,7 +33,7 @@ def take_still(
     output
         The file, whole or not there.
     camera
-        A camera of the world; the first of its shot list if none.
+        A camera of the world, or a shot; the first of its shot list if none.
     size
         Width and height in pixels, both even.
     renderer
@@ -45,8 +46,9 @@ def take_still(
     InvalidValueError
         If an option makes no sense.
     """
-    options = FilmOptions(seconds=1.0, size=size, renderer=renderer, camera=camera)
-    view, _ = Operator(world, camera).camera(0.0, 0.0)
+    named, shots = (None, [camera]) if isinstance(camera, Shot) else (camera, None)
+    options = FilmOptions(seconds=1.0, size=size, renderer=renderer, camera=named)
+    view, _ = Operator(world, named, shots).camera(0.0, 0.0)
     picture = renderer_of(options).render(world.scene, view)
     with written_whole(Path(output)) as temporary:
         temporary.write_bytes(_engine.encode_png(picture))

@@ -19,6 +19,8 @@ from bioscope.worlds import landscape as landscape  # its populations are known 
 if TYPE_CHECKING:
     from types import ModuleType
 
+    from bioscope.film.direction import Shot
+
 _FOLDER = Path(__file__).parent
 
 
@@ -31,14 +33,24 @@ def names() -> dict[str, str]:
 def films() -> dict[str, int]:
     """Return the ready-made worlds that are made to be filmed, each with the seed of its film.
 
-    Those name it in their module as `FILM_SEED`; their shot list is the whole film.
+    Those name it in their module as `FILM_SEED`.
     """
-    seeds = {}
-    for name in names():
-        seed = getattr(importlib.import_module(f"bioscope.worlds.{name}.world"), "FILM_SEED", None)
-        if seed is not None:
-            seeds[name] = int(seed)
-    return seeds
+    seeds = {name: getattr(_module(name), "FILM_SEED", None) for name in names()}
+    return {name: int(seed) for name, seed in seeds.items() if seed is not None}
+
+
+def shots(name: str) -> list[Shot]:
+    """Return the shot list of a film.
+
+    A world whose module has a function `direct` is watched for `TRIAL` seconds first, and films
+    what happens when and where it happens; of others the world's own list is taken.
+    """
+    from bioscope.film.direction import Shot, Story
+
+    world, module = load(name, films()[name]), _module(name)
+    if hasattr(module, "direct"):
+        return list(module.direct(Story(world, module.TRIAL)))
+    return [Shot(seconds, camera) for camera, seconds in world.shots]
 
 
 @dataclass(frozen=True)
@@ -49,20 +61,37 @@ class Plate:
     seed: int
     time: float
     """Seconds from its beginning."""
-    camera: str
+    shot: Shot
 
 
-def plates() -> dict[str, Plate]:
-    """Return the color plates of the ready-made worlds by name.
+def plates() -> dict[str, str]:
+    """Return the color plates by name, each with the world that it is of.
 
-    Worlds name theirs in their module as `PLATES`: seed, time and camera by the plate's name.
+    Worlds name theirs in their module as `PLATES`: a dict of seed, time and camera by name, or only
+    the names, if `direct` says when and how they are taken.
     """
-    found = {}
-    for name in names():
-        module = importlib.import_module(f"bioscope.worlds.{name}.world")
-        for plate, (seed, time, camera) in getattr(module, "PLATES", {}).items():
-            found[plate] = Plate(name, seed, time, camera)
-    return found
+    return {plate: name for name in names() for plate in getattr(_module(name), "PLATES", ())}
+
+
+def plate(name: str) -> Plate:
+    """Return a color plate; a story is watched for it where the world has one."""
+    from bioscope.film.direction import Shot
+
+    world = plates()[name]
+    listed = _module(world).PLATES
+    if isinstance(listed, dict):
+        seed, time, camera = listed[name]
+        return Plate(world, seed, time, Shot(1.0, camera))
+    begin = 0.0
+    for shot in shots(world):
+        if shot.plate == name:
+            return Plate(world, films()[world], begin + shot.moment, shot)
+        begin += shot.seconds
+    raise UnknownNameError(f"no shot of the film '{world}' is for the still '{name}'")
+
+
+def _module(name: str) -> ModuleType:
+    return importlib.import_module(f"bioscope.worlds.{name}.world")
 
 
 def _summary(path: Path) -> str:
@@ -95,8 +124,7 @@ def load(name: str, seed: int | None = None) -> World:
 
         seed = secrets.randbits(32)
     if name in names():
-        module = importlib.import_module(f"bioscope.worlds.{name}.world")
-        return _made(module, name, seed)
+        return _made(_module(name), name, seed)
     path = gallery.animations().get(name, Path(name))
     if path.suffix == ".lm" and path.is_file():
         return _animated(path, seed)

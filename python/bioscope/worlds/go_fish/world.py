@@ -9,13 +9,13 @@ Source: X. Tu, "Artificial animals for computer animation", 1996, section 8.1, t
 from __future__ import annotations
 
 import bioscope as bio
+from bioscope.film.direction import Part, Shot, Story
 from bioscope.worlds.seascape import pillar, seascape
 
 FILM_SEED = 4
-PLATES = {
-    "fishing_line": (FILM_SEED, 15.0, "hook"),
-    "hooked_fish": (FILM_SEED, 20.0, "haul"),
-}
+TRIAL = 40.0
+"""How long the story is watched before it is filmed, seconds."""
+PLATES = ("fishing_line", "hooked_fish")
 _HOME = (0.0, -4.3, 0.2)
 _BITE = "bait"
 
@@ -53,3 +53,26 @@ def _place_cameras(bay: bio.World) -> None:
     cameras.fixed("hook", position=(0.65, -4.25, 1.25), target=(0.2, -3.95, 0.4), field_of_view=42)
     cameras.fixed("haul", position=(0.75, -4.2, 1.4), target=(0.2, -2.9, 0.4), field_of_view=58)
     bay.shots = [("bay", 5.0), ("angelfish", 4.0), ("hook", 8.6), ("haul", 6.8), ("tang", 4.0)]
+
+
+def direct(story: Story) -> list[Shot]:
+    """Film the feeding, the worm that comes down, the bite, the haul, and the feeding after it."""
+    (bite,) = story.all("hooked")
+    (landing,) = story.all("caught", after=bite.time)
+    caught = bite.subject
+    (worm,) = (one.subject for one in story.all("eaten") if one.object == caught)
+    tangs, angelfishes = story.ids("yellow_tang"), story.ids("emperor_angelfish")
+
+    def feeding(until: float) -> Part:
+        return Part(until, [tangs[0], *story.nearest(tangs[0], tangs, until - 2.0, within=0.6)])
+
+    waiting = [feeding(4.5), Part(9.5, [caught]), Part(13.5, [worm]), feeding(18.0)]
+    return story.sequence(
+        [one for one in waiting if one.end < bite.time - 2.5]
+        + [
+            Part(bite.time - 2.5, [worm, *story.nearest(worm, angelfishes, bite.time - 4.0)]),
+            Part(bite.time + 1.2, [worm, caught], plate="fishing_line", still=bite.time - 0.6),
+            Part(landing.time + 0.3, [caught], plate="hooked_fish", still=bite.time + 2.0),
+            feeding(landing.time + 4.5),
+        ]
+    )

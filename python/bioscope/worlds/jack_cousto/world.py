@@ -12,10 +12,13 @@ from __future__ import annotations
 from functools import partial
 
 import bioscope as bio
+from bioscope.film.direction import Part, Shot, Story
 from bioscope.worlds.seascape import Guide, seascape
 
 FILM_SEED = 1
-PLATES = {"stalked_school": (FILM_SEED, 14.0, "school")}
+TRIAL = 60.0
+"""How long the story is watched before it is filmed, seconds."""
+PLATES = ("stalked_school",)
 _SHARK, _PREY, _LEADER = "blacktip_shark", "fusilier", "parrotfish"
 
 
@@ -97,3 +100,33 @@ def _settle_background(bay: bio.World) -> None:
     )
     at = (-4.6, -3.4, -3.6)
     bay.add(bio.RoamingFish(_SHARK, 1, center=at, radius=0.2, home=home, mind=stalker))
+
+
+def direct(story: Story) -> list[Shot]:
+    """Film the pair with all that goes on behind it, and each of that by itself."""
+    (shark,), school = story.ids(_SHARK), story.ids(_PREY)
+    pair, feeders = story.ids("clownfish"), story.ids("anthias")
+    kills = story.all("caught", _PREY)
+    first, second = kills[0], kills[2]
+    circling = story.all("circled", "clownfish")[0].time
+    spawning = story.all("spawned", "clownfish")[0].time
+
+    def few(of: list[int], until: float) -> Part:
+        return Part(until, [of[4], *story.nearest(of[4], of, until - 2.0, within=0.6)[:3]])
+
+    return story.sequence(
+        [
+            Part(first.time - 2.0, pair, [shark, *school[:4]]),
+            Part(first.time + 1.5, [shark, first.subject]),
+            few(school, first.time + 6.0),
+            few(feeders, circling - 2.5),
+            Part(
+                circling + 4.5, pair, [shark, *school[:4]], plate="stalked_school", still=circling
+            ),
+            few(feeders, second.time - 3.0),
+            Part(second.time + 1.5, [shark, second.subject]),
+            Part(second.time + 8.0, pair, [shark, *school[:4]]),
+            few(school, spawning - 4.0),
+            Part(spawning + 3.0, pair),
+        ]
+    )

@@ -9,16 +9,20 @@ Source: X. Tu, "Artificial animals for computer animation", 1996, section 8.2, "
 from __future__ import annotations
 
 import bioscope as bio
+from bioscope.film.direction import Part, Shot, Story
 from bioscope.worlds.seascape import seascape
 
 FILM_SEED = 1
-PLATES = {"courting_pair": (FILM_SEED, 12.0, "bride")}
+TRIAL = 80.0
+"""How long the story is watched before it is filmed, seconds."""
+PLATES = ("courting_pair",)
+_IDOL, _ANGELFISH, _BUTTERFLYFISH = "moorish_idol", "emperor_angelfish", "butterflyfish"
 _CAST = [
     # Species, share of females, how many, where.
-    ("moorish_idol", 0.0, 2, (0.0, -4.2, 0.6)),
-    ("moorish_idol", 1.0, 1, (0.3, -4.3, 0.9)),
-    ("butterflyfish", 1.0, 1, (-1.2, -4.3, 0.2)),
-    ("emperor_angelfish", 0.5, 2, (1.6, -4.1, -0.6)),
+    (_IDOL, 0.0, 2, (0.0, -4.2, 0.6)),
+    (_IDOL, 1.0, 1, (0.3, -4.3, 0.9)),
+    (_BUTTERFLYFISH, 1.0, 1, (-1.2, -4.3, 0.2)),
+    (_ANGELFISH, 0.5, 2, (1.6, -4.1, -0.6)),
 ]
 
 
@@ -50,13 +54,12 @@ def world(seed: int) -> bio.World:
 
 def _place_cameras(bay: bio.World) -> None:
     cameras = bay.cameras
-    idol, angelfish, small = "moorish_idol", "emperor_angelfish", "butterflyfish"
-    cameras.follow("suitor", species=idol, index=1, offset=(3.4, 0.5, 1.6), field_of_view=44)
-    cameras.follow("bride", species=idol, index=2, offset=(3.4, 0.3, 1.2), field_of_view=42)
-    cameras.follow("pair", species=angelfish, index=0, offset=(2.6, 0.3, 0.8), field_of_view=42)
-    cameras.follow("ascent", species=idol, index=1, offset=(3.2, -0.4, 0.8), field_of_view=44)
-    cameras.follow("spawning", species=idol, index=2, offset=(2.8, -0.3, 0.8), field_of_view=42)
-    cameras.follow("other", species=small, offset=(3.6, 0.4, 1.4), field_of_view=42)
+    cameras.follow("suitor", species=_IDOL, index=1, offset=(3.4, 0.5, 1.6), field_of_view=44)
+    cameras.follow("bride", species=_IDOL, index=2, offset=(3.4, 0.3, 1.2), field_of_view=42)
+    cameras.follow("pair", species=_ANGELFISH, index=0, offset=(2.6, 0.3, 0.8), field_of_view=42)
+    cameras.follow("ascent", species=_IDOL, index=1, offset=(3.2, -0.4, 0.8), field_of_view=44)
+    cameras.follow("spawning", species=_IDOL, index=2, offset=(2.8, -0.3, 0.8), field_of_view=42)
+    cameras.follow("other", species=_BUTTERFLYFISH, offset=(3.6, 0.4, 1.4), field_of_view=42)
     bay.shots = [
         ("suitor", 6.0),
         ("pair", 6.0),
@@ -67,3 +70,33 @@ def _place_cameras(bay: bio.World) -> None:
         ("ascent", 8.0),
         ("spawning", 10.0),
     ]
+
+
+def direct(story: Story) -> list[Shot]:
+    """Film the rivals, the dances of both pairs, the loser, and the spawning."""
+    circling = story.all("circled", _IDOL)[0]
+    groom, bride = circling.subject, circling.object
+    loser = next(one for one in story.ids(_IDOL) if one not in (groom, bride))
+    pair, other = story.ids(_ANGELFISH), story.ids(_BUTTERFLYFISH)
+    nuzzling = story.all("mated", _IDOL)[0].time
+    spawning = story.all("spawned", _IDOL)[0].time
+    second = story.all("spawned", _ANGELFISH)[0].time
+    return story.sequence(
+        [
+            Part(5.0, [groom, loser, bride]),
+            Part(10.0, pair),
+            Part(circling.time - 5.0, [groom, bride]),
+            Part(
+                circling.time + 5.0,
+                [groom, bride],
+                plate="courting_pair",
+                still=circling.time + 2.0,
+            ),
+            Part(circling.time + 10.0, pair),
+            Part(circling.time + 15.0, [loser, *other]),
+            Part(nuzzling, [groom, bride]),
+            Part((nuzzling + spawning) / 2, [groom, bride]),
+            Part(spawning + 2.0, [groom, bride]),
+            Part(max(spawning, second) + 2.0, pair),
+        ]
+    )

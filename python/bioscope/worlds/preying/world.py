@@ -9,14 +9,13 @@ Source: X. Tu, "Artificial animals for computer animation", 1996, section 8.2, "
 from __future__ import annotations
 
 import bioscope as bio
+from bioscope.film.direction import Part, Shot, Story
 from bioscope.worlds.seascape import seascape
 
-FILM_SEED = 1
-PLATES = {
-    "peaceful_world": (FILM_SEED, 3.0, "angelfish"),
-    "predator_chase": (FILM_SEED, 5.0, "shark"),
-    "fleeing_school": (FILM_SEED, 6.0, "prey"),
-}
+FILM_SEED = 3
+TRIAL = 40.0
+"""How long the story is watched before it is filmed, seconds."""
+PLATES = ("peaceful_world", "predator_chase", "fleeing_school")
 _SHARK, _PREY = "blacktip_shark", "fusilier"
 
 
@@ -45,7 +44,7 @@ def _settle_animals(ground: bio.World) -> None:
     )
     ground.add(
         bio.RoamingFish(
-            _SHARK, 1, center=(-4.4, -3.8, -3.5), radius=0.3, home=(0.0, -3.8, 0.0), mind=hunter
+            _SHARK, 1, center=(0.0, -3.2, 7.0), radius=0.3, home=(0.0, -3.8, 0.0), mind=hunter
         )
     )
     ground.add(bio.Plankton(700, low=(-4.0, -5.4, -4.0), high=(4.0, -1.0, 4.0)))
@@ -66,3 +65,26 @@ def _place_cameras(ground: bio.World) -> None:
         ("angelfish", 3.5),
         ("bay", 6.0),
     ]
+
+
+def direct(story: Story) -> list[Shot]:
+    """Film the peace before, the hunt up to the kills, and the peace after."""
+    (shark,), prey = story.ids(_SHARK), story.ids(_PREY)
+    grazer, neighbor, _ = story.ids("emperor_angelfish")
+    kills = story.all("caught", _PREY)[:2]
+    hunt, last = kills[0].time - 3.0, kills[-1].time
+    fled = story.nearest(shark, prey, last + 3.0)[0]
+    parts = [
+        Part(3.5, story.nearest(prey[2], prey, 2.0)[:2], plate="fleeing_school", still=2.5),
+        Part(hunt - 4.0, [grazer, neighbor], plate="peaceful_world", still=6.5),
+        Part(hunt, [shark], field_of_view=42.0),
+    ]
+    for kill, plate in zip(kills, ("predator_chase", ""), strict=False):
+        still = kill.time - 0.8
+        parts.append(Part(kill.time + 1.2, [shark, kill.subject], plate=plate, still=still))
+    parts += [
+        Part(last + 5.5, [fled, *story.nearest(fled, prey, last + 3.0, within=0.8)]),
+        Part(last + 9.0, [grazer]),
+        Part(last + 14.0, [shark], field_of_view=42.0),
+    ]
+    return story.sequence(parts)
