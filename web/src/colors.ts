@@ -24,13 +24,33 @@ const KNOWN: Record<string, number> = {
   died: 7,
 };
 
-/** The color of a behavior, species or kind of event: the same in chart, label and overlay. */
+/** The color of a behavior or kind of event: the same in chart, label and overlay. */
 export function colorOf(word: string): string {
-  const known = KNOWN[word.toLowerCase()];
-  if (known !== undefined) return PALETTE[known];
+  return PALETTE[KNOWN[word.toLowerCase()] ?? hashed(word)];
+}
+
+/** The colors that species have got so far. */
+const given = new Map<string, number>();
+
+/**
+ * The color of a species on every map. One whose letters lead to a color that another has got already
+ * takes the next free one, as long as there are any.
+ */
+export function colorOfSpecies(species: string): string {
+  let index = given.get(species);
+  if (index === undefined) {
+    const taken = new Set(given.values());
+    const tries = PALETTE.map((_, step) => (hashed(species) + step) % PALETTE.length);
+    index = tries.find((one) => !taken.has(one)) ?? tries[0];
+    given.set(species, index);
+  }
+  return PALETTE[index];
+}
+
+function hashed(word: string): number {
   let sum = 7;
   for (const letter of word) sum = (sum * 31 + letter.charCodeAt(0)) % 9973;
-  return PALETTE[sum % PALETTE.length];
+  return sum % PALETTE.length;
 }
 
 /** Color number so many of a list of things that have no names. */

@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { colorOf } from "../src/colors";
+import { colorOf, colorOfSpecies } from "../src/colors";
 import { flatten, formatNumber, formatValue, unitOf } from "../src/inspector/values";
 import type { Layout } from "../src/messages/types";
 import { usedAssets } from "../src/messages/usage";
@@ -31,6 +31,21 @@ describe("values", () => {
     expect(colorOf("flee")).toBe(colorOf("Flee"));
     expect(colorOf("some behavior")).toBe(colorOf("some behavior"));
     expect(colorOf("avoid")).not.toBe(colorOf("school"));
+  });
+
+  it("of eight species have eight colors", () => {
+    const species = [
+      "fusilier",
+      "blacktip_shark",
+      "kelp",
+      "butterflyfish",
+      "parrotfish",
+      "yellow_tang",
+      "sea_fan",
+      "seagrass",
+    ];
+    expect(new Set(species.map(colorOfSpecies)).size).toBe(8);
+    expect(colorOfSpecies("kelp")).toBe(colorOfSpecies("kelp"));
   });
 
   it("of time read as a clock", () => {

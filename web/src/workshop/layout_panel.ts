@@ -1,4 +1,4 @@
-import { colorOf } from "../colors";
+import { colorOfSpecies } from "../colors";
 import type { Session } from "../messages/session";
 import { download, element, nameOf } from "../overlays/dom";
 import type { Panel } from "../overlays/panels";
@@ -129,7 +129,7 @@ export class LayoutPanel implements Panel {
     this.legend.dataset.species = species.join();
     this.legend.replaceChildren(
       ...species.map((one) =>
-        element("span", { style: `--color: ${colorOf(one)}`, textContent: one.replaceAll("_", " ") }),
+        element("span", { style: `--color: ${colorOfSpecies(one)}`, textContent: one.replaceAll("_", " ") }),
       ),
     );
   }

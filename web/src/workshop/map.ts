@@ -1,4 +1,4 @@
-import { colorOf } from "../colors";
+import { colorOfSpecies } from "../colors";
 import type { Stage } from "../scene/stage";
 
 /** One thing on the map. */
@@ -96,7 +96,7 @@ export function drawMap(
     const [x, y] = toPicture(spot, section, size);
     const radius = Math.min(9, Math.max(2, 0.5 * spot.radius * pixels));
     context.globalAlpha = spot.id === selected ? 1 : 0.75;
-    context.fillStyle = colorOf(spot.species);
+    context.fillStyle = colorOfSpecies(spot.species);
     context.beginPath();
     context.arc(x, y, radius, 0, 2 * Math.PI);
     context.fill();
