@@ -1,7 +1,7 @@
 import { colorOf } from "../colors";
 import { formatValue } from "../inspector/values";
 import type { Session } from "../messages/session";
-import type { WorldEvent } from "../messages/types";
+import type { BatchLayout, WorldEvent } from "../messages/types";
 import { element } from "./dom";
 import type { Panel } from "./panels";
 import { clock } from "./timeline_bar";
@@ -20,6 +20,9 @@ export class EventList implements Panel {
   private readonly events: WorldEvent[] = [];
   private readonly hidden = new Set<string>();
   private stale = true;
+  /** What the living are, also those that have gone. */
+  private readonly species = new Map<number, string>();
+  private known = new WeakSet<BatchLayout>();
 
   constructor(
     private readonly session: Session,
@@ -28,8 +31,11 @@ export class EventList implements Panel {
     this.body.append(this.kinds, this.list);
     session.on("hello", () => {
       this.events.length = 0;
+      this.species.clear();
+      this.known = new WeakSet();
       this.stale = true;
     });
+    session.on("layout", ({ batches }) => this.remember(batches));
     session.on("events", ({ events }) => {
       this.events.push(...events);
       this.events.splice(0, Math.max(0, this.events.length - MOST));
@@ -52,6 +58,15 @@ export class EventList implements Panel {
     this.list.replaceChildren(...shown.reverse().map((event) => this.row(event)));
     if (shown.length === 0)
       this.list.append(element("li", { class: "bio-quiet", textContent: "Nothing yet." }));
+  }
+
+  private remember(batches: BatchLayout[]): void {
+    for (const batch of batches) {
+      if (!batch.alive || this.known.has(batch)) continue;
+      this.known.add(batch);
+      const name = batch.species.replaceAll("_", " ");
+      for (const id of batch.ids) this.species.set(id, name);
+    }
   }
 
   private chip(kind: string): HTMLElement {
@@ -88,9 +103,10 @@ export class EventList implements Panel {
   }
 
   private individual(id: number): HTMLElement {
+    const species = this.species.get(id);
     return element("button", {
       class: "bio-link",
-      textContent: `#${id}`,
+      textContent: species ? `${species} #${id}` : `#${id}`,
       title: "select",
       onclick: () => this.select(id),
     });
