@@ -1,7 +1,7 @@
 use bioscope_core::Vec3;
 use bioscope_dynamics::spring_body::fish::{MUSCLES, NODES};
 use bioscope_dynamics::spring_body::{
-    Body, Dispatch, Lanes, Real, Triple, Workspace, signed_volume,
+    Body, Dispatch, Integrator, Lanes, Real, Triple, Workspace, signed_volume,
 };
 use serde::{Deserialize, Serialize};
 
@@ -50,6 +50,13 @@ impl<R: Dispatch> Desk<R> {
         let zero = [R::splat(0.0); 3];
         let work = Workspace::new(&model.mechanics.anatomy);
         Self { work, flow: vec![zero; NODES], push: vec![zero; NODES] }
+    }
+
+    /// Lets neither water nor fins push anybody.
+    pub fn still(&mut self) {
+        let zero = [R::splat(0.0); 3];
+        self.flow.fill(zero);
+        self.push.fill(zero);
     }
 }
 
@@ -121,7 +128,9 @@ impl<R: Dispatch> Group<R> {
 
     /// Advances all members by `steps` steps of `dt` time units.
     pub fn advance(&mut self, model: &FishModel, steps: usize, dt: f64, desk: &mut Desk<R>) {
-        let before = self.body.clone();
+        // Only the semi-implicit scheme ever fails.
+        let may_fail = model.mechanics.integrator == Integrator::SemiImplicit;
+        let before = may_fail.then(|| self.body.clone());
         for (lane, member) in self.members.iter().enumerate() {
             for node in &mut desk.flow {
                 for (axis, flow) in node.iter_mut().zip(member.flow) {
@@ -132,7 +141,9 @@ impl<R: Dispatch> Group<R> {
         for _ in 0..steps {
             if self.step(model, dt, desk).is_err() {
                 // The semi-implicit scheme does not say which of the bodies collapsed: all are put back.
-                self.body.clone_from(&before);
+                if let Some(before) = before {
+                    self.body = before;
+                }
                 for lane in 0..self.members.len() {
                     self.repair(model, lane);
                 }
@@ -140,8 +151,9 @@ impl<R: Dispatch> Group<R> {
             }
         }
         let centers = self.means(model, &self.body.position);
+        let volume = model.mechanics.anatomy.volume();
         for lane in 0..self.members.len() {
-            if self.is_whole(model, lane) {
+            if self.is_whole(model, lane, volume) {
                 self.center(lane, centers.map(|axis| axis[lane]));
             } else {
                 self.repair(model, lane);
@@ -189,11 +201,12 @@ impl<R: Dispatch> Group<R> {
         }
     }
 
-    fn is_whole(&self, model: &FishModel, lane: usize) -> bool {
+    /// Whether a body still has its shape, whose volume at rest is `rest`.
+    fn is_whole(&self, model: &FishModel, lane: usize, rest: f64) -> bool {
         let nodes: [[f64; 3]; NODES] = std::array::from_fn(|node| self.node(lane, node));
         let volume = signed_volume(&model.mechanics.anatomy.faces, &nodes);
         let near = nodes.iter().flatten().all(|axis| axis.abs() < 100.0);
-        let share = volume / model.mechanics.anatomy.volume();
+        let share = volume / rest;
         near && (0.1..10.0).contains(&share)
     }
 

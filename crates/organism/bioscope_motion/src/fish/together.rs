@@ -1,5 +1,7 @@
+use std::cell::Cell;
 use std::sync::Arc;
 
+use bioscope_core::Quat;
 use bioscope_dynamics::spring_body::{Body, Lanes, Real};
 use rayon::prelude::*;
 
@@ -9,13 +11,18 @@ use super::{FishModel, Swimmers};
 /// Fishes side by side in one computation.
 const LANES: usize = <Lanes as Real>::LANES;
 
+/// Fishes up to which a second thread is not worth waking (measured: it costs as much as eight of them).
+const FEW: usize = 2 * LANES;
+
 impl Swimmers<f32> {
     /// Advances fishes that are kept one by one, each exactly as [`advance`](Self::advance) would, but neighbors of one
-    /// kind side by side and all in parallel.
+    /// kind side by side, and many in parallel.
     pub fn advance_together(fishes: &mut [&mut Self], dt: f64) {
-        fishes
-            .par_chunks_mut(LANES)
-            .for_each_init(|| None, |bench, some| advance_some(some, dt, bench));
+        if fishes.len() <= FEW {
+            fishes.chunks_mut(LANES).for_each(|some| advance_some(some, dt));
+        } else {
+            fishes.par_chunks_mut(LANES).for_each(|some| advance_some(some, dt));
+        }
     }
 
     /// Whether the two can be computed side by side.
@@ -34,24 +41,36 @@ struct Bench {
     desk: Desk<Lanes>,
 }
 
+thread_local! {
+    static BENCH: Cell<Option<Bench>> = const { Cell::new(None) };
+}
+
 impl Bench {
     fn of(model: &Arc<FishModel>) -> Self {
         Self { model: Arc::clone(model), group: Group::new(model), desk: Desk::new(model) }
     }
+
+    /// The bench of this thread for `count` fishes of this model; lanes without a fish rest in still water.
+    fn take(model: &Arc<FishModel>, count: usize) -> Self {
+        let known = BENCH.take().filter(|one| Arc::ptr_eq(&one.model, model));
+        let Some(mut bench) = known else { return Self::of(model) };
+        if count < LANES {
+            (count..LANES).for_each(|lane| bench.group.put(model, lane, Quat::IDENTITY));
+            bench.desk.still();
+        }
+        bench
+    }
 }
 
-fn advance_some(fishes: &mut [&mut Swimmers<f32>], dt: f64, bench: &mut Option<Bench>) {
+fn advance_some(fishes: &mut [&mut Swimmers<f32>], dt: f64) {
     let Some((first, others)) = fishes.split_first() else { return };
     if others.is_empty() || !others.iter().all(|other| first.is_like(other)) {
         fishes.iter_mut().for_each(|fish| fish.advance(dt));
         return;
     }
     let (steps, step) = first.steps(dt);
-    // Who was computed in the other lanes before shall not matter.
-    let known =
-        bench.take().filter(|one| Arc::ptr_eq(&one.model, &first.model) && fishes.len() == LANES);
-    let Bench { model, group, desk } =
-        bench.insert(known.unwrap_or_else(|| Bench::of(&fishes[0].model)));
+    let mut bench = Bench::take(&first.model, fishes.len());
+    let Bench { model, group, desk } = &mut bench;
     for (lane, fish) in fishes.iter_mut().enumerate() {
         let alone = &mut fish.groups[0];
         for_each_number((&mut group.body, &mut alone.body), |lanes, number| {
@@ -67,6 +86,7 @@ fn advance_some(fishes: &mut [&mut Swimmers<f32>], dt: f64, bench: &mut Option<B
         });
         alone.members.push(member);
     }
+    BENCH.set(Some(bench));
 }
 
 /// Calls `visit` with each number of several bodies and the like one of a single body.

@@ -24,8 +24,9 @@ use crate::suction::Mouths;
 const BIRTH: Purpose = Purpose::new("birth of an animal");
 /// Most animals of one population: each has a mind of its own.
 const LARGEST_COUNT: usize = 100_000;
-/// Fewest animals worth sharing among threads.
-const WORTH_THREADS: usize = 4;
+/// Fewest animals that are worth sharing among threads: of those that look with retinas, and of others, of which a
+/// dozen think and move in the time that it takes to wake a thread.
+const WORTH_THREADS: (usize, usize) = (4, 24);
 
 /// Animals that one task poses.
 const TASK: usize = 32;
@@ -92,7 +93,10 @@ impl Animals {
         &mut self,
         work: impl Fn(&mut Individual, usize) -> Result<()> + Send + Sync,
     ) -> Result<()> {
-        let in_order = self.individuals.len() < WORTH_THREADS || self.may_fail();
+        let first = self.individuals.first();
+        let looks = first.is_some_and(|one| one.record.percepts.retina.is_some());
+        let fewest = if looks { WORTH_THREADS.0 } else { WORTH_THREADS.1 };
+        let in_order = self.individuals.len() < fewest || self.may_fail();
         let mut individuals = self.individuals.iter_mut().enumerate();
         if in_order {
             return individuals.try_for_each(|(index, one)| work(one, index));
@@ -144,13 +148,21 @@ impl Animals {
         batch.ids = alike.iter().map(|one| one.id).collect();
         batch.tints = alike.iter().map(|one| one.record.tint).collect();
         batch.displays = alike.iter().map(|one| one.record.intention.display).collect();
-        let bodies = alike.par_iter().with_min_len(TASK).map(|one| &one.parts.body);
-        (batch.transforms, batch.velocities) =
-            bodies.clone().map(|body| (body.placement(), body.velocity())).unzip();
+        batch.transforms = alike.iter().map(|one| one.parts.body.placement()).collect();
+        batch.velocities = alike.iter().map(|one| one.parts.body.velocity()).collect();
         let joints = look.joint_count();
         if joints > 0 {
             batch.poses = vec![Transform::IDENTITY; joints * alike.len()];
-            bodies.zip(batch.poses.par_chunks_mut(joints)).for_each(|(body, pose)| body.pose(pose));
+            let pose = |(some, poses): (&[&Individual], &mut [Transform])| {
+                let each = some.iter().zip(poses.chunks_mut(joints));
+                each.for_each(|(one, pose)| one.parts.body.pose(pose));
+            };
+            if alike.len() <= TASK {
+                pose((&alike, &mut batch.poses));
+            } else {
+                let poses = batch.poses.par_chunks_mut(joints * TASK);
+                alike.par_chunks(TASK).zip(poses).for_each(pose);
+            }
         }
         batch
     }
