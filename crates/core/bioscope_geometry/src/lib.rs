@@ -13,6 +13,7 @@ pub mod rasterizer;
 mod relief;
 mod rig;
 pub mod scene;
+mod solids;
 mod terrain;
 mod transform;
 
@@ -25,5 +26,6 @@ pub use rasterizer::{Options, Prepared, Rasterizer, View, prepare};
 pub use relief::{Mound, ReefRelief};
 pub use rig::{Motion, Rig};
 pub use scene::{Batch, Material, Medium, Mouth, Points, Scene, Sky, Sun, Texture};
+pub use solids::Solids;
 pub use terrain::Terrain;
 pub use transform::Transform;

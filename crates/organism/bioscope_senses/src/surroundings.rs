@@ -1,6 +1,6 @@
 use bioscope_core::{Id, Percepts, Quat, SoundEvent, Vec3};
 use bioscope_dynamics::Influence;
-use bioscope_geometry::{Medium, Obstacle, Scene, Sun, Terrain};
+use bioscope_geometry::{Medium, Scene, Solids, Sun, Terrain};
 
 use crate::Outlook;
 
@@ -29,7 +29,7 @@ pub struct Surroundings<'a> {
     /// What acts at the animal's place.
     pub influence: Influence,
     /// Solids.
-    pub obstacles: &'a [Obstacle],
+    pub obstacles: &'a Solids,
     /// The ground, if there is any.
     pub terrain: Option<&'a Terrain>,
     /// What fills the space.
@@ -70,10 +70,11 @@ impl<'a> Surroundings<'a> {
         self.medium.surface.map_or(0.0, |surface| surface - self.position.y)
     }
 
-    /// What every animal knows of itself without a sense of its own: name, time, motion, balance, size,
-    /// depth and the way home.
-    pub fn own_state(&self) -> Percepts {
-        Percepts {
+    /// Begins percepts anew with what every animal knows of itself without a sense of its own: name, time, motion,
+    /// balance, size, depth and the way home. Lists stay as they were, for the senses to overwrite them.
+    pub fn begin(&self, percepts: &mut Percepts) {
+        let Percepts { seen, smelled, solids, heard, .. } = std::mem::take(percepts);
+        *percepts = Percepts {
             id: self.id,
             time: self.time,
             dt: self.dt,
@@ -82,7 +83,11 @@ impl<'a> Surroundings<'a> {
             body_length: self.body_length,
             depth: self.depth(),
             home: self.own_point(self.home),
+            seen,
+            smelled,
+            solids,
+            heard,
             ..Percepts::default()
-        }
+        };
     }
 }

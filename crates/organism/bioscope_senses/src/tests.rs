@@ -2,13 +2,15 @@
 
 use bioscope_core::{Percepts, Quat, SoundEvent, Vec3};
 use bioscope_dynamics::Influence;
-use bioscope_geometry::{Medium, Scene, Sun};
+use bioscope_geometry::{Medium, Scene, Solids, Sun};
 
 use crate::{
     Hearing, HearingParameters, LateralLine, Light, Memory, Outlook, Sense, Surroundings, restore,
 };
 
 const DT: f32 = 1.0 / 60.0;
+/// No solid anywhere.
+pub(crate) static OPEN: Solids = Solids::new();
 
 /// Two metres under the surface, turned to +X.
 fn surroundings<'a>(outlook: &'a Outlook<'a>, medium: &'a Medium) -> Surroundings<'a> {
@@ -22,7 +24,7 @@ fn surroundings<'a>(outlook: &'a Outlook<'a>, medium: &'a Medium) -> Surrounding
         outlook,
         sounds: &[],
         influence: Influence::default(),
-        obstacles: &[],
+        obstacles: &OPEN,
         terrain: None,
         medium,
         sun: Sun { direction: Vec3::Y, ..Sun::default() },

@@ -268,7 +268,7 @@ impl World {
             return Err(to_python(Error::value("cylinder", found, expected)));
         }
         self.with(py, |world| {
-            world.environment.obstacles.push(Obstacle::Cylinder { base, top, radius });
+            world.environment.obstacles.edit().push(Obstacle::Cylinder { base, top, radius });
             Ok(())
         })
     }

@@ -2,7 +2,7 @@ use std::sync::Arc;
 
 use bioscope_core::{Result, Vec3, math, parameters};
 use bioscope_dynamics::{Field, Influence};
-use bioscope_geometry::{Medium, Obstacle, Scene, Sky, Sun, Terrain};
+use bioscope_geometry::{Medium, Scene, Sky, Solids, Sun, Terrain};
 
 parameters! {
     /// Light and water of a world.
@@ -34,7 +34,7 @@ pub struct Environment {
     /// The light of the sky.
     pub sky: Sky,
     /// Solids to steer round.
-    pub obstacles: Vec<Obstacle>,
+    pub obstacles: Solids,
     /// Everything that acts at a distance, by name.
     pub fields: Vec<(String, Box<dyn Field>)>,
     /// Light and water.

@@ -131,7 +131,7 @@ impl World {
             terrain: environment.terrain.as_deref().cloned(),
             medium: environment.medium,
             sky: environment.sky,
-            obstacles: environment.obstacles.clone(),
+            obstacles: environment.obstacles.to_vec(),
             parameters: environment.parameters.clone(),
             rigs: self.rigs.clone(),
             shots: self.shots.clone(),
@@ -169,7 +169,7 @@ impl World {
         self.environment.terrain = state.terrain.map(Into::into);
         self.environment.medium = state.medium;
         self.environment.sky = state.sky;
-        self.environment.obstacles = state.obstacles;
+        self.environment.obstacles = state.obstacles.into();
         self.environment.parameters = state.parameters;
         self.rigs = state.rigs;
         self.shots = state.shots;

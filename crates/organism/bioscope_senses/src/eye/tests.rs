@@ -60,7 +60,7 @@ fn noticed(scene: &Scene) -> Percepts {
         outlook: &outlook,
         sounds: &[],
         influence: Influence::default(),
-        obstacles: &[],
+        obstacles: &crate::tests::OPEN,
         terrain: None,
         medium: &medium,
         sun: Sun::default(),

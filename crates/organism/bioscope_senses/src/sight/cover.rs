@@ -24,7 +24,8 @@ pub(super) struct Cover<'a> {
 impl<'a> Cover<'a> {
     /// All that may hide something within `reach` metres of the eye.
     pub fn new(surroundings: &Surroundings<'a>, eye: Vec3, reach: f32) -> Self {
-        let distances = surroundings.obstacles.iter().map(|one| (one.distance(eye), one));
+        let within = surroundings.obstacles.within(eye - reach, eye + reach);
+        let distances = within.map(|one| (one.distance(eye), one));
         let solids = distances.filter(|&(distance, _)| distance <= reach).collect();
         let terrain = surroundings.terrain;
         let summit = terrain.map_or(f32::NEG_INFINITY, |terrain| {

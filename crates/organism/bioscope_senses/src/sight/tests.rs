@@ -2,7 +2,9 @@ use std::sync::Arc;
 
 use bioscope_core::{Percepts, Quat, Vec3};
 use bioscope_dynamics::Influence;
-use bioscope_geometry::{Batch, Material, Medium, Mesh, Obstacle, Scene, Sun, Terrain, Transform};
+use bioscope_geometry::{
+    Batch, Material, Medium, Mesh, Obstacle, Scene, Solids, Sun, Terrain, Transform,
+};
 use proptest::prelude::*;
 
 use super::*;
@@ -31,7 +33,7 @@ fn surroundings<'a>(outlook: &'a Outlook<'a>, medium: &'a Medium) -> Surrounding
         outlook,
         sounds: &[],
         influence: Influence::default(),
-        obstacles: &[],
+        obstacles: &crate::tests::OPEN,
         terrain: None,
         medium,
         sun: Sun::default(),
@@ -105,10 +107,10 @@ fn rocks_and_ground_hide_what_is_behind_them() {
     let memory = Memory::default();
     let outlook = Outlook::new(&scene, &memory);
     let (medium, rock) = (Medium::default(), Vec3::Z * 5.0);
-    let rocks = [Obstacle::Sphere { center: rock, radius: 1.0 }];
+    let rocks = Solids::from(vec![Obstacle::Sphere { center: rock, radius: 1.0 }]);
     let behind_rock = Surroundings { obstacles: &rocks, ..surroundings(&outlook, &medium) };
     assert_eq!(seen(&behind_rock), [11]);
-    let on_top = [Obstacle::Sphere { center: Vec3::Z * 10.0, radius: 0.05 }];
+    let on_top = Solids::from(vec![Obstacle::Sphere { center: Vec3::Z * 10.0, radius: 0.05 }]);
     let on_rock = Surroundings { obstacles: &on_top, ..surroundings(&outlook, &medium) };
     assert_eq!(seen(&on_rock), [10, 11], "what sits on a small rock is seen");
     // A ridge along x at z = 4, two metres high.
@@ -148,7 +150,8 @@ proptest! {
             position: place, attitude, velocity: attitude * Vec3::Z, home: place + attitude * Vec3::Y,
             ..surroundings(&outlook, &medium)
         };
-        let mut percepts = turned.own_state();
+        let mut percepts = Percepts::default();
+        turned.begin(&mut percepts);
         Sight::default().sense(&turned, &mut percepts).unwrap();
         let sighting = &percepts.seen[0];
         prop_assert!((sighting.position - own).length() < 1e-4);
@@ -189,13 +192,10 @@ fn one_part_that_shows_is_enough() {
     let (medium, memory) = (Medium::default(), Memory::default());
     let outlook = Outlook::new(&scene, &memory);
     let pillar = |radius: f32| {
-        [Obstacle::Cylinder {
-            base: Vec3::new(0.0, -9.0, 3.0),
-            top: Vec3::new(0.0, 9.0, 3.0),
-            radius,
-        }]
+        let (base, top) = (Vec3::new(0.0, -9.0, 3.0), Vec3::new(0.0, 9.0, 3.0));
+        Solids::from(vec![Obstacle::Cylinder { base, top, radius }])
     };
-    let behind = |pillars: &[Obstacle]| {
+    let behind = |pillars: &Solids| {
         seen(&Surroundings { obstacles: pillars, ..surroundings(&outlook, &medium) })
     };
     assert_eq!(behind(&pillar(0.5)), [10]);
@@ -213,11 +213,9 @@ fn sizes_colors_headings_and_displays_are_seen_and_solids_noticed() {
     let (medium, memory, mut percepts) =
         (Medium::default(), Memory::default(), Percepts::default());
     let outlook = Outlook::new(&scene, &memory);
-    let solids = [
-        Obstacle::Sphere { center: Vec3::new(-3.0, 0.0, 0.0), radius: 1.0 },
-        Obstacle::Sphere { center: Vec3::new(1.5, 0.0, 0.0), radius: 1.0 },
-        Obstacle::Sphere { center: Vec3::new(0.0, 40.0, 0.0), radius: 1.0 },
-    ];
+    let centers = [(-3.0, 0.0, 0.0), (1.5, 0.0, 0.0), (0.0, 40.0, 0.0)].map(Vec3::from);
+    let balls = centers.map(|center| Obstacle::Sphere { center, radius: 1.0 });
+    let solids = Solids::from(balls.to_vec());
     let place = surroundings(&outlook, &medium);
     let surroundings = Surroundings { obstacles: &solids, body_length: 0.5, ..place };
     Sight::default().sense(&surroundings, &mut percepts).unwrap();

@@ -1,6 +1,6 @@
 use bioscope_core::{Percepts, Quat, Vec3};
 use bioscope_dynamics::Influence;
-use bioscope_geometry::{Medium, Obstacle, Points, Scene, Sun};
+use bioscope_geometry::{Medium, Obstacle, Points, Scene, Solids, Sun};
 
 use super::*;
 use crate::{Memory, Outlook, Sense, Surroundings, restore};
@@ -24,6 +24,7 @@ fn scene(places: &[Vec3]) -> Scene {
 fn smelled(smell: &mut Smell, places: &[Vec3], obstacles: &[Obstacle]) -> Vec<u32> {
     let (scene, memory, medium) = (scene(places), Memory::default(), Medium::default());
     let outlook = Outlook::new(&scene, &memory);
+    let obstacles = Solids::from(obstacles.to_vec());
     let surroundings = Surroundings {
         id: 1,
         position: Vec3::ZERO,
@@ -34,7 +35,7 @@ fn smelled(smell: &mut Smell, places: &[Vec3], obstacles: &[Obstacle]) -> Vec<u3
         outlook: &outlook,
         sounds: &[],
         influence: Influence::default(),
-        obstacles,
+        obstacles: &obstacles,
         terrain: None,
         medium: &medium,
         sun: Sun::default(),

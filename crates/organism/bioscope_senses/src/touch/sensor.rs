@@ -80,7 +80,10 @@ pub fn impact_ahead(surroundings: &Surroundings, measures: &TouchParameters) -> 
             nearest = Some((distance, *solid));
         }
     };
-    surroundings.obstacles.iter().for_each(&mut meet);
+    // Boxes and cylinders grow by more than the clearance towards their corners.
+    let (end, margin) = (origin + heading * reach, 2.0 * clearance);
+    let way = (origin.min(end) - margin, origin.max(end) + margin);
+    surroundings.obstacles.within(way.0, way.1).for_each(&mut meet);
     if let Some(surface) = surroundings.medium.surface.filter(|surface| origin.y < *surface) {
         meet(&Obstacle::Plane { point: Vec3::Y * surface, normal: Vec3::NEG_Y });
     }

@@ -1,6 +1,6 @@
 use bioscope_core::{Quat, Vec3};
 use bioscope_dynamics::Influence;
-use bioscope_geometry::{Medium, Obstacle, Scene, Sun, Terrain};
+use bioscope_geometry::{Medium, Obstacle, Scene, Solids, Sun, Terrain};
 
 use super::*;
 use crate::{Memory, Outlook, Surroundings};
@@ -31,7 +31,7 @@ fn at<'a>(
         outlook,
         sounds: &[],
         influence: Influence::default(),
-        obstacles: &[],
+        obstacles: &crate::tests::OPEN,
         terrain: None,
         medium,
         sun: Sun::default(),
@@ -45,7 +45,8 @@ fn at<'a>(
 fn a_rock_ahead_is_felt_at_its_distance_and_passed_on_the_nearer_side() {
     let (scene, memory) = (Scene::default(), Memory::default());
     let outlook = Outlook::new(&scene, &memory);
-    let rocks = [Obstacle::Sphere { center: Vec3::new(0.2, 0.0, 2.5), radius: 1.0 }];
+    let rock = Obstacle::Sphere { center: Vec3::new(0.2, 0.0, 2.5), radius: 1.0 };
+    let rocks = Solids::from(vec![rock]);
     let ahead = Surroundings { obstacles: &rocks, ..at(Vec3::ZERO, Vec3::Z, &outlook, &CLEAR) };
     let impact = impact_ahead(&ahead, &TouchParameters::default()).expect("a rock ahead");
     assert!((impact.distance - 1.34).abs() < 0.03, "{impact:?}");
@@ -58,7 +59,7 @@ fn a_rock_ahead_is_felt_at_its_distance_and_passed_on_the_nearer_side() {
 fn walls_alongside_and_rocks_already_grazed_are_not_felt() {
     let (scene, memory) = (Scene::default(), Memory::default());
     let outlook = Outlook::new(&scene, &memory);
-    let wall = [Obstacle::Plane { point: Vec3::X * 0.1, normal: Vec3::NEG_X }];
+    let wall = Solids::from(vec![Obstacle::Plane { point: Vec3::X * 0.1, normal: Vec3::NEG_X }]);
     for (heading, felt) in
         [(Vec3::Z, false), (Vec3::new(-0.3, 0.0, 1.0), false), (Vec3::new(0.5, 0.0, 1.0), true)]
     {

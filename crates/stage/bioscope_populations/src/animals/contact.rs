@@ -5,10 +5,15 @@ use bioscope_world::Environment;
 /// touches nothing. Animals steer clear by themselves; this is what the world does if they fail.
 pub(crate) fn way_out(position: Vec3, radius: f32, environment: &Environment) -> Vec3 {
     let mut out = position;
-    for solid in &environment.obstacles {
-        let depth = radius - solid.distance(out);
-        if depth > 0.0 {
-            out += solid.outward(out) * depth;
+    let solids = &environment.obstacles;
+    let mut near = solids.within(position - radius, position + radius);
+    if near.any(|solid| radius - solid.distance(position) > 0.0) {
+        // Out of one solid the way may lead into another one.
+        for solid in solids.iter() {
+            let depth = radius - solid.distance(out);
+            if depth > 0.0 {
+                out += solid.outward(out) * depth;
+            }
         }
     }
     if let Some(surface) = environment.medium.surface {
@@ -38,7 +43,7 @@ mod tests {
         let ground = Terrain::new([-10.0; 2], 20.0, 2, vec![-5.0; 4]).unwrap();
         environment.terrain = Some(Arc::new(ground));
         let center = Vec3::new(0.0, -2.0, 0.0);
-        environment.obstacles.push(Obstacle::Sphere { center, radius: 1.0 });
+        environment.obstacles.edit().push(Obstacle::Sphere { center, radius: 1.0 });
         let out = |x: f32, y: f32| way_out(Vec3::new(x, y, 0.0), 0.2, &environment);
         assert_eq!(out(4.0, -3.0), Vec3::ZERO);
         assert!((out(0.9, -2.0) - Vec3::X * 0.3).length() < 1e-3);

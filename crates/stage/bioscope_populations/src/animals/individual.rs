@@ -127,13 +127,11 @@ impl Individual {
             time: view.moment.time,
             dt: self.record.decided.map_or(view.moment.dt, |last| (view.moment.time - last) as f32),
         };
-        let mut percepts = surroundings.own_state();
+        let percepts = &mut self.record.percepts;
+        surroundings.begin(percepts);
         percepts.fed = std::mem::take(&mut self.record.fed);
-        for sense in &mut self.parts.senses {
-            sense.sense(&surroundings, &mut percepts)?;
-        }
-        self.record.percepts = percepts;
-        Ok(())
+        let mut senses = self.parts.senses.iter_mut();
+        senses.try_for_each(|sense| sense.sense(&surroundings, percepts))
     }
 
     pub fn decide(&mut self, moment: &Moment, reaction: f32) -> Result<()> {

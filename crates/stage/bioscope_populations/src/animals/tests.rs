@@ -164,7 +164,7 @@ fn world() -> World {
     let ground = Terrain::new([-20.0; 2], 40.0, 2, vec![-6.0; 4]).unwrap();
     world.environment.terrain = Some(Arc::new(ground));
     let center = Vec3::new(1.0, -3.0, 2.0);
-    world.environment.obstacles.push(Obstacle::Sphere { center, radius: 1.0 });
+    world.environment.obstacles.edit().push(Obstacle::Sphere { center, radius: 1.0 });
     let current = Current::new(Vec3::X, CurrentParameters::default());
     world.add_field(Box::new(current), None).unwrap();
     let animals = (0..6)

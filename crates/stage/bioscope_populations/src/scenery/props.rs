@@ -124,7 +124,7 @@ impl Props {
         if options.obstacles.len() == options.places.len() {
             let solid = &mut options.obstacles[index];
             let after = moved(*solid, place.position, position, scale);
-            let known = environment.obstacles.iter_mut().find(|one| *one == solid);
+            let known = environment.obstacles.edit().iter_mut().find(|one| *one == solid);
             if let Some(known) = known {
                 *known = after;
             }
@@ -218,7 +218,7 @@ impl Population for Props {
 
     fn settle(&mut self, growth: &mut Growth) -> Result<()> {
         let options = &self.state.options;
-        growth.environment.obstacles.extend_from_slice(&options.obstacles);
+        growth.environment.obstacles.edit().extend_from_slice(&options.obstacles);
         let ids = growth.identities(options.places.len())?;
         let places = options.places.iter();
         self.state.props =

@@ -226,7 +226,7 @@ impl Population for Rocks {
             |((id, site), radius): ((Id, Site), f32)| Rock::lay(id, site, radius, options, seed);
         let rocks: Vec<Rock> = ids.into_iter().zip(sites).zip(radii).map(lay).collect();
         let obstacles = rocks.iter().map(|one| one.obstacle(options.flatness));
-        growth.environment.obstacles.extend(obstacles);
+        growth.environment.obstacles.edit().extend(obstacles);
         self.state.rocks = rocks;
         self.assets = Assets::build(&self.state);
         Ok(())

@@ -24,7 +24,7 @@ fn reef() -> World {
     };
     let ground = Terrain::new([-20.0; 2], 1.0, 40, (0..1600).map(height).collect()).unwrap();
     world.environment.terrain = Some(Arc::new(ground));
-    world.environment.obstacles = vec![
+    *world.environment.obstacles.edit() = vec![
         Obstacle::Sphere { center: Vec3::new(1.5, -3.5, 1.5), radius: 0.8 },
         Obstacle::Cylinder {
             base: Vec3::new(-2.0, -6.0, 0.0),
@@ -119,7 +119,7 @@ fn for_half_a_minute_nobody_enters_rock_ground_or_air_and_the_school_holds_toget
             assert!(place.y < -0.1, "{place} is in the air");
             let height = place.y - ground.height(place.x, place.z);
             assert!(height > 0.1, "{place} is {height} m above the ground");
-            for rock in &world.environment.obstacles {
+            for rock in world.environment.obstacles.iter() {
                 let distance = rock.distance(place);
                 assert!(distance > 0.06, "{place} is {distance} m from {rock:?}");
             }
@@ -142,7 +142,7 @@ fn splits_round_a_pillar_and_closes_behind_it() {
         top: Vec3::new(0.0, 20.0, 2.5),
         radius: 0.4,
     };
-    world.environment.obstacles.push(pillar);
+    world.environment.obstacles.edit().push(pillar);
     let mut options = FishSchoolOptions {
         home: Some(Vec3::new(0.0, -3.0, 6.0)),
         ..FishSchoolOptions::new(FishSpecies::named("anchovy").unwrap(), 120, Vec3::Y * -3.0)

@@ -267,7 +267,8 @@ impl Population for Corals {
         let colonies: Vec<Colony> = settled
             .map(|((id, kind), site)| Colony::settle(id, kind, site, options, growth))
             .collect();
-        growth.environment.obstacles.extend(colonies.iter().filter_map(Colony::obstacle));
+        let solids = growth.environment.obstacles.edit();
+        solids.extend(colonies.iter().filter_map(Colony::obstacle));
         self.state.colonies = colonies;
         self.assets = build(&self.state);
         Ok(())
