@@ -75,6 +75,16 @@ pub struct Sighting {
     pub display: Display,
 }
 
+impl Sighting {
+    /// Says of which species it is; costs nothing if it was of the same before. (The name is shared by all who see
+    /// one, and so is the count of them, for which threads have to wait.)
+    pub fn is_of(&mut self, species: &Arc<str>) {
+        if !Arc::ptr_eq(&self.species, species) {
+            self.species = Arc::clone(species);
+        }
+    }
+}
+
 /// A picture on a retina, rows from the top: what the eye sees, how far and whom.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Retina {

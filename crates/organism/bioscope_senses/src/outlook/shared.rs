@@ -2,7 +2,7 @@ use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use bioscope_geometry::rasterizer::{Options, Prepared, Rasterizer};
-use bioscope_geometry::{Mesh, Scene};
+use bioscope_geometry::{Batch, Mesh, Scene};
 
 use super::cells::Thing;
 use super::register::Register;
@@ -49,7 +49,8 @@ pub struct Outlook<'a> {
 struct Survey {
     /// The scene, if more than one may ask for it.
     scene: Option<Arc<Scene>>,
-    instances: Register,
+    movers: Register,
+    stays: Register,
     points: Register,
     prepared: OnceLock<Prepared>,
 }
@@ -82,9 +83,14 @@ impl<'a> Outlook<'a> {
         self.scene
     }
 
-    /// All living things.
-    pub fn instances(&self) -> &Register {
-        &self.survey.instances
+    /// All living things that move.
+    pub fn movers(&self) -> &Register {
+        &self.survey.movers
+    }
+
+    /// All living things that stay where they are.
+    pub fn stays(&self) -> &Register {
+        &self.survey.stays
     }
 
     /// All points.
@@ -104,19 +110,29 @@ impl<'a> Outlook<'a> {
 
 impl Survey {
     fn of(scene: &Scene, memory: &Memory, last: Option<&Self>) -> Self {
-        let (instances, points) = (instances(scene, memory), points(scene));
-        let (instances, points) = match last {
-            Some(last) => (last.instances.followed_by(instances), last.points.followed_by(points)),
-            None => (Register::new(instances, 0.0), Register::new(points, LEAST_EDGE)),
+        let (movers, stays, points) =
+            (living(scene, memory, true), living(scene, memory, false), points(scene));
+        let (movers, stays, points) = match last {
+            Some(last) => (
+                last.movers.followed_by(movers),
+                last.stays.followed_by(stays),
+                last.points.followed_by(points),
+            ),
+            None => (
+                Register::new(movers, 0.0),
+                Register::new(stays, 0.0),
+                Register::new(points, LEAST_EDGE),
+            ),
         };
-        Self { scene: None, instances, points, prepared: OnceLock::new() }
+        Self { scene: None, movers, stays, points, prepared: OnceLock::new() }
     }
 }
 
-/// Everything alive in a scene.
-fn instances(scene: &Scene, memory: &Memory) -> Vec<Thing> {
+/// Everything alive in a scene that moves, or that stays where it is.
+fn living(scene: &Scene, memory: &Memory, moves: bool) -> Vec<Thing> {
     let mut things = Vec::new();
-    for (group, batch) in scene.batches.iter().enumerate().filter(|(_, batch)| batch.alive) {
+    let alike = |batch: &Batch| batch.alive && batch.velocities.is_empty() != moves;
+    for (group, batch) in scene.batches.iter().enumerate().filter(|(_, batch)| alike(batch)) {
         let mesh_size = memory.extent(&batch.mesh);
         for (member, (transform, &id)) in batch.transforms.iter().zip(&batch.ids).enumerate() {
             things.push(Thing {

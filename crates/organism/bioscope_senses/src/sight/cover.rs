@@ -34,14 +34,11 @@ impl<'a> Cover<'a> {
         Self { eye, solids, terrain, summit }
     }
 
-    /// Points of the nearest solids within `reach` metres that are nearest to the eye, in the world.
-    pub fn nearest_points(&self, reach: f32) -> Vec<Vec3> {
-        let mut near: Vec<_> =
-            self.solids.iter().filter(|(distance, _)| *distance <= reach).collect();
-        near.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let point =
-            |&&(distance, solid): &&(f32, &Obstacle)| self.eye - solid.outward(self.eye) * distance;
-        near.iter().take(NOTICED).map(point).collect()
+    /// Points of the nearest solids that are nearest to the eye, in the world.
+    pub fn nearest_points(mut self) -> impl Iterator<Item = Vec3> {
+        self.solids.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let near = self.solids.into_iter().take(NOTICED);
+        near.map(move |(distance, solid)| self.eye - solid.outward(self.eye) * distance)
     }
 
     /// Whether all of a thing of this size (metres) is hidden, whose length lies along `axis` (a unit

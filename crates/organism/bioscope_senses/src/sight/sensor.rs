@@ -37,8 +37,9 @@ impl SightParameters {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Sight {
     parameters: SightParameters,
+    /// Those of what moves, and of what stays where it is.
     #[serde(skip)]
-    shortlist: Shortlist,
+    shortlists: [Shortlist; 2],
 }
 
 /// Something within range and field of view.
@@ -53,22 +54,27 @@ struct Candidate {
 impl Sight {
     /// Sight this good.
     pub fn new(parameters: SightParameters) -> Self {
-        Self { parameters, shortlist: Shortlist::default() }
+        Self { parameters, shortlists: Default::default() }
     }
 
-    /// Everything within range and field of view.
-    fn candidates(&mut self, surroundings: &Surroundings, eye: Vec3) -> Vec<Candidate> {
+    /// Adds everything within range and field of view: what moves, or what stays where it is.
+    fn look_for(
+        &mut self,
+        stays: bool,
+        (surroundings, eye): (&Surroundings, Vec3),
+        candidates: &mut Vec<Candidate>,
+    ) {
         let range = self.parameters.range.min(visibility(surroundings.medium));
         let half_angle = (0.5 * self.parameters.field_of_view).min(180.0).to_radians();
         let least_cosine = math::cos(half_angle);
         let least_size = 2.0 * math::tan(0.5 * self.parameters.acuity.to_radians());
         let heading = surroundings.heading();
-        let batches = &surroundings.scene().batches;
         let reach = Reach { range, least: least_size.max(1e-9) };
-        let mut candidates = Vec::new();
-        let instances = surroundings.outlook.instances();
-        self.shortlist.near(
-            instances,
+        let (outlook, [of_movers, of_stays]) = (surroundings.outlook, &mut self.shortlists);
+        let (register, shortlist) =
+            if stays { (outlook.stays(), of_stays) } else { (outlook.movers(), of_movers) };
+        shortlist.near(
+            register,
             (eye, reach),
             |_| true,
             |thing| {
@@ -78,47 +84,64 @@ impl Sight {
                     && offset.dot(heading) >= least_cosine * distance
                     && thing.id != surroundings.id;
                 if seen {
-                    let stays = batches[thing.group as usize].velocities.is_empty();
                     candidates.push(Candidate { stays, distance, thing: *thing });
                 }
             },
         );
-        candidates
     }
 
-    /// Those that are attended to: the nearest that are not hidden.
-    fn attended(&mut self, surroundings: &Surroundings, eye: Vec3) -> (Vec<Candidate>, Vec<Vec3>) {
+    /// Those that are attended to: the nearest that are not hidden, what moves before what stays.
+    fn attended(&mut self, surroundings: &Surroundings, eye: Vec3) -> Vec<Candidate> {
         let attention = self.parameters.attention as usize;
-        let mut candidates = self.candidates(surroundings, eye);
         // Some more than are attended to, for those that turn out to be hidden.
         let enough = attention + attention / 2 + 8;
+        let mut candidates = Vec::with_capacity(2 * enough);
+        self.look_for(false, (surroundings, eye), &mut candidates);
+        // Among many that move nobody heeds what stays.
+        let many = candidates.len() >= enough;
+        if !many {
+            self.look_for(true, (surroundings, eye), &mut candidates);
+        }
         if candidates.len() > enough {
             candidates.select_nth_unstable_by(enough - 1, order);
         }
         let first = enough.min(candidates.len());
-        candidates[..first].sort_unstable_by(order);
-        let near = NEAR_SOLIDS * surroundings.body_length;
-        let farthest =
-            |some: &[Candidate]| some.iter().map(|one| one.distance).fold(near, f32::max);
-        let mut cover = Cover::new(surroundings, eye, farthest(&candidates[..first]));
-        let solids = cover.nearest_points(near);
         let mut visible = Vec::with_capacity(attention.min(first));
-        for index in 0..candidates.len() {
-            if visible.len() == attention {
-                break;
+        attend(&mut candidates[..first], (surroundings, eye), (attention, &mut visible));
+        if visible.len() < attention {
+            if many {
+                self.look_for(true, (surroundings, eye), &mut candidates);
             }
-            if index == first {
-                candidates[first..].sort_unstable_by(order);
-                cover = Cover::new(surroundings, eye, farthest(&candidates[first..]));
-            }
-            let one = candidates[index];
-            if !cover.hides(one.thing.position, axis(surroundings, &one.thing), one.thing.size) {
-                visible.push(one);
-            }
+            attend(&mut candidates[first..], (surroundings, eye), (attention, &mut visible));
         }
         visible.sort_unstable_by(|a, b| order(&Candidate { stays: b.stays, ..*a }, b));
-        (visible, solids)
+        visible
     }
+}
+
+/// Adds the first of the candidates that are not hidden, until there are `attention`.
+fn attend(
+    candidates: &mut [Candidate],
+    (surroundings, eye): (&Surroundings, Vec3),
+    (attention, visible): (usize, &mut Vec<Candidate>),
+) {
+    if candidates.is_empty() {
+        return;
+    }
+    candidates.sort_unstable_by(order);
+    let near = near_solids(surroundings);
+    let farthest = candidates.iter().map(|one| one.distance).fold(near, f32::max);
+    let cover = Cover::new(surroundings, eye, farthest);
+    let shows = |Candidate { thing, .. }: &&Candidate| {
+        !cover.hides(thing.position, axis(surroundings, thing), thing.size)
+    };
+    let missing = attention - visible.len();
+    visible.extend(candidates.iter().filter(shows).take(missing));
+}
+
+/// Distance in metres from which solids are noticed on all sides.
+fn near_solids(surroundings: &Surroundings) -> f32 {
+    NEAR_SOLIDS * surroundings.body_length
 }
 
 /// What moves first, then the nearest.
@@ -136,22 +159,20 @@ fn axis(surroundings: &Surroundings, thing: &Thing) -> Vec3 {
     batch.transforms[thing.member as usize].rotation() * Vec3::Z
 }
 
-/// What is seen of a thing.
-fn sighting(surroundings: &Surroundings, thing: &Thing) -> Sighting {
+/// Notes what is seen of a thing in place of what was seen of another one.
+fn see(surroundings: &Surroundings, thing: &Thing, sighting: &mut Sighting) {
     let batch = &surroundings.scene().batches[thing.group as usize];
     let member = thing.member as usize;
     let velocity = batch.velocities.get(member).copied().unwrap_or_default();
     let tint = Vec3::from(batch.tints.get(member).copied().unwrap_or([1.0; 3]));
-    Sighting {
-        id: thing.id,
-        species: batch.species.clone(),
-        position: surroundings.own_point(thing.position),
-        velocity: surroundings.own_vector(velocity),
-        heading: surroundings.own_vector(axis(surroundings, thing)),
-        size: thing.size,
-        color: (Vec3::from(batch.material.color) * tint).to_array(),
-        display: batch.displays.get(member).copied().unwrap_or_default(),
-    }
+    sighting.id = thing.id;
+    sighting.is_of(&batch.species);
+    sighting.position = surroundings.own_point(thing.position);
+    sighting.velocity = surroundings.own_vector(velocity);
+    sighting.heading = surroundings.own_vector(axis(surroundings, thing));
+    sighting.size = thing.size;
+    sighting.color = (Vec3::from(batch.material.color) * tint).to_array();
+    sighting.display = batch.displays.get(member).copied().unwrap_or_default();
 }
 
 /// Distance in metres at which haze leaves too little contrast to see, in the clearest color.
@@ -169,11 +190,14 @@ impl Sense for Sight {
     fn sense(&mut self, surroundings: &Surroundings, percepts: &mut Percepts) -> Result<()> {
         let placement = Transform::new(surroundings.position, surroundings.attitude, 1.0);
         let eye = eye_position(&placement, surroundings.body_length);
-        let (visible, solids) = self.attended(surroundings, eye);
-        percepts.seen.clear();
-        percepts.seen.extend(visible.iter().map(|one| sighting(surroundings, &one.thing)));
+        let visible = self.attended(surroundings, eye);
+        percepts.seen.resize_with(visible.len(), Sighting::default);
+        for (sighting, one) in percepts.seen.iter_mut().zip(&visible) {
+            see(surroundings, &one.thing, sighting);
+        }
+        let solids = Cover::new(surroundings, eye, near_solids(surroundings));
         percepts.solids.clear();
-        percepts.solids.extend(solids.iter().map(|&point| surroundings.own_point(point)));
+        percepts.solids.extend(solids.nearest_points().map(|point| surroundings.own_point(point)));
         Ok(())
     }
 

@@ -22,9 +22,9 @@ pub struct Smell {
     parameters: SmellParameters,
     /// Species that smell of food.
     foods: Vec<Arc<str>>,
-    /// Those among living things, and among points.
+    /// Those among what moves, among what stays where it is, and among points.
     #[serde(skip)]
-    shortlists: [Shortlist; 2],
+    shortlists: [Shortlist; 3],
 }
 
 /// Food within range.
@@ -49,11 +49,12 @@ impl Sense for Smell {
     }
 
     fn sense(&mut self, surroundings: &Surroundings, percepts: &mut Percepts) -> Result<()> {
-        percepts.smelled.clear();
         if self.foods.is_empty() {
+            percepts.smelled.clear();
             return Ok(());
         }
-        let Self { parameters, foods, shortlists: [among_instances, among_points] } = self;
+        let Self { parameters, foods, shortlists: [among_movers, among_stays, among_points] } =
+            self;
         let (scene, outlook) = (surroundings.scene(), surroundings.outlook);
         let is_food = |species: &Arc<str>| foods.iter().any(|food| food == species);
         let batches: Vec<bool> = scene.batches.iter().map(|one| is_food(&one.species)).collect();
@@ -74,7 +75,8 @@ impl Sense for Smell {
                     }
                 });
             };
-        smell(outlook.instances(), among_instances, &batches, false);
+        smell(outlook.movers(), among_movers, &batches, false);
+        smell(outlook.stays(), among_stays, &batches, false);
         smell(outlook.points(), among_points, &points, true);
         let order = |a: &Morsel, b: &Morsel| {
             a.square.total_cmp(&b.square).then(a.thing.id.cmp(&b.thing.id))
@@ -85,7 +87,10 @@ impl Sense for Smell {
         }
         morsels.truncate(attention);
         morsels.sort_unstable_by(order);
-        percepts.smelled.extend(morsels.iter().map(|one| sighting(surroundings, one)));
+        percepts.smelled.resize_with(morsels.len(), Sighting::default);
+        for (sighting, morsel) in percepts.smelled.iter_mut().zip(&morsels) {
+            smell_of(surroundings, morsel, sighting);
+        }
         Ok(())
     }
 
@@ -102,17 +107,14 @@ impl Sense for Smell {
     }
 }
 
-/// A smelled thing: where and of what kind it is; a smell tells neither color nor motion.
-fn sighting(surroundings: &Surroundings, morsel: &Morsel) -> Sighting {
+/// Notes a smelled thing in place of another one: where and of what kind it is; a smell tells neither color nor motion.
+fn smell_of(surroundings: &Surroundings, morsel: &Morsel, sighting: &mut Sighting) {
     let Morsel { is_point, thing, .. } = morsel;
     let (scene, group) = (surroundings.scene(), thing.group as usize);
     let species =
         if *is_point { &scene.points[group].species } else { &scene.batches[group].species };
-    Sighting {
-        id: thing.id,
-        species: species.clone(),
-        position: surroundings.own_point(thing.position),
-        size: thing.size,
-        ..Sighting::default()
-    }
+    sighting.is_of(species);
+    sighting.id = thing.id;
+    sighting.position = surroundings.own_point(thing.position);
+    sighting.size = thing.size;
 }

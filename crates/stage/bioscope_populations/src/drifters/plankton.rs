@@ -41,7 +41,7 @@ parameters! {
 #[serde(default)]
 pub struct PlanktonOptions {
     /// Its species in the scene.
-    pub species: String,
+    pub species: Arc<str>,
     /// How many.
     pub count: usize,
     /// Least corner of the box of water it lives in, metres.
@@ -61,7 +61,7 @@ pub struct PlanktonOptions {
 impl Default for PlanktonOptions {
     fn default() -> Self {
         Self {
-            species: String::from("plankton"),
+            species: "plankton".into(),
             count: 1800,
             low: Vec3::new(-9.0, -9.0, -8.0),
             high: Vec3::new(9.0, -0.2, 10.0),
@@ -329,7 +329,7 @@ impl Population for Plankton {
         let State { options, drifters, eaten } = &self.state;
         publication.scene.points.push(Points {
             name: free_name(&publication.scene, &options.species),
-            species: Arc::from(options.species.as_str()),
+            species: options.species.clone(),
             ids: drifters.iter().map(|one| one.id).collect(),
             positions: drifters.iter().map(|one| one.position).collect(),
             radii: drifters.iter().map(|one| one.radius).collect(),
@@ -351,6 +351,6 @@ impl Population for Plankton {
     parameters_in!(state.options.parameters);
 
     fn default_name(&self) -> String {
-        self.state.options.species.clone()
+        self.state.options.species.to_string()
     }
 }
