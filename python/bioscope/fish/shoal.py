@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from bioscope import _engine
+from bioscope.errors import InvalidValueError
 
 if TYPE_CHECKING:
-    import numpy as np
     from numpy.typing import NDArray
 
 
@@ -33,6 +36,10 @@ class Shoal:
     """
 
     def __init__(self, species: str = "anthias", count: int = 1, *, replayed: bool = False) -> None:
+        if isinstance(count, bool) or not isinstance(count, int | np.integer) or count < 0:
+            raise InvalidValueError(f"count = {count!r}: expected a whole number, 0 or more")
+        if not isinstance(species, str):
+            raise InvalidValueError(f"species = {species!r}: expected the name of a species")
         self._engine = _engine.Shoal(species, count, replayed)
 
     def step(self, dt: float, ticks: int = 1) -> None:
@@ -41,6 +48,8 @@ class Shoal:
 
     def turn(self, index: int, angle: float) -> None:
         """Let one fish turn by this angle in radians, positive to the left."""
+        if not abs(angle) <= 2 * math.pi:
+            raise InvalidValueError(f"angle = {angle}: expected radians, -2 pi to 2 pi")
         self._engine.turn(index, angle)
 
     @property

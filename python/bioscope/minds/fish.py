@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 from bioscope import _engine
-from bioscope.errors import UnknownNameError
+from bioscope.errors import InvalidValueError, UnknownNameError
 from bioscope.json_text import json_text
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
 _HABITS = ("bright", "dark", "cold", "warm", "school", "female")
+_ROLES = ("predator", "prey", "pacifist", "generic")
 
 
 class FishMind:
@@ -29,7 +31,8 @@ class FishMind:
     species
         Its own species; the population's if not given.
     enemies, food, leaders
-        Species that it flees from, that it eats, and behind which it schools.
+        Species that it flees from, that it eats, and behind which it schools: one name or several.
+        In a world `shark` means all sharks.
     habits
         Any of `bright`, `dark`, `cold`, `warm` (what it likes; both of a pair is indifference),
         `school` (likes company) and `female`.
@@ -56,15 +59,20 @@ class FishMind:
         role: str = "pacifist",
         *,
         species: str = "",
-        enemies: Iterable[str] = (),
-        food: Iterable[str] = (),
-        leaders: Iterable[str] = (),
-        habits: Iterable[str] = (),
+        enemies: str | Iterable[str] = (),
+        food: str | Iterable[str] = (),
+        leaders: str | Iterable[str] = (),
+        habits: str | Iterable[str] = (),
         eye: bool = False,
         **temper: float,
     ) -> None:
+        if role not in _ROLES:
+            raise UnknownNameError(f"unknown role '{role}'; known: {', '.join(_ROLES)}")
+        for name, value in temper.items():
+            if isinstance(value, float) and not math.isfinite(value):
+                raise InvalidValueError(f"{name} = {value}: expected a finite number")
         liked = {}
-        for habit in habits:
+        for habit in _names("habits", habits):
             if habit not in _HABITS:
                 raise UnknownNameError(f"unknown habit '{habit}'; known: {', '.join(_HABITS)}")
             liked[habit] = True
@@ -74,9 +82,9 @@ class FishMind:
                 "role": role,
                 "habits": liked,
                 "species": species,
-                "enemies": list(enemies),
-                "food": list(food),
-                "leaders": list(leaders),
+                "enemies": _names("enemies", enemies),
+                "food": _names("food", food),
+                "leaders": _names("leaders", leaders),
             },
             "temper": temper,
         }
@@ -104,6 +112,8 @@ class FishMind:
             `urgency`, `brake` and `mouth` (0 to 1), `gaze`, `target`, `display` (`sex`, `act`,
             `partner`) and `annotations` (role, from, to).
         """
+        if not isinstance(percepts, dict):
+            raise InvalidValueError(f"percepts = {percepts!r}: expected a dict")
         self._tick += 1
         self._last = self._mind.decide(percepts, seed, self._tick)
         return self._last
@@ -182,6 +192,20 @@ class FreeFlow(FishMind):
     """A free-flow hierarchy (Rosenblatt and Payton 1989, Tyrrell 1993) on the same percepts."""
 
     kind = "free_flow"
+
+
+def _names(field: str, names: str | Iterable[str]) -> list[str]:
+    """Return the names as a list, or raise if they are none; one alone is one name."""
+    if isinstance(names, str):
+        return [names]
+    try:
+        found = [*names]
+    except TypeError:
+        raise InvalidValueError(f"{field} = {names!r}: expected names") from None
+    for name in found:
+        if not isinstance(name, str):
+            raise InvalidValueError(f"{field} = {name!r}: expected names")
+    return found
 
 
 _KINDS: dict[str, type[FishMind]] = {

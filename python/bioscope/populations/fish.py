@@ -89,7 +89,9 @@ class FishSchool(Fishes):
         Middle of their home range, metres.
     mind
         None for Reynolds' rules. With a mind (see `RoamingFish`) each fish decides for itself and
-        swims by its own muscles: whether they school is up to them.
+        swims by its own muscles: whether they school is up to them. By its name alone
+        (`intentions`, `behavior_network`, `free_flow`) it is a mind as fishes of this species have
+        it: sharks hunt, anchovies school and flee, clownfishes court.
     **parameters
         Any of the school's parameters; see `World.parameters`.
     """
@@ -139,12 +141,12 @@ class RoamingFish(Fishes):
     home
         Middle of their home range, metres; `center` if not given.
     mind
-        A mind of the engine's by name (`intentions`, `behavior_network`, `free_flow`) or made by
-        one of those classes of `bioscope.minds`. Or a mind of your own: a function of percepts that
-        returns what the fish wants (see `Mind.decide`), a `Mind` class or what else makes one
-        for each fish, or a `Mind` to be copied. A roamer's if not given. With a mind of the
-        engine's the fishes have an artificial fish's senses: they see all within 15 times its size
-        and smell their food.
+        A mind of the engine's by name (`intentions`, `behavior_network`, `free_flow`), as fishes of
+        this species have it, or made by one of those classes of `bioscope.minds`. Or a mind of your
+        own: a function of percepts that returns what the fish wants (see `Mind.decide`), a `Mind`
+        class or what else makes one for each fish, or a `Mind` to be copied. A roamer's if not
+        given. With a mind of the engine's the fishes have an artificial fish's senses: they see all
+        within 15 times its size and smell their food.
     food
         Species that they smell as food, with a mind of your own; the engine's know their own.
     variation
@@ -157,7 +159,8 @@ class RoamingFish(Fishes):
         they notice nothing new and go on as they wanted; real fishes answer what they see after
         about a tenth of a second. Large populations cost less with it.
     females
-        Share of females among fishes with a mind of the engine's; the mind's habit if not given.
+        Share of females among fishes with a mind of the engine's; if not given the mind's habit,
+        and half of those who have a mind by its name alone.
     **parameters
         Any of the population's parameters; see `World.parameters`.
     """
@@ -217,5 +220,7 @@ def _with_mind(
         fish._mind_classes = tuple(made)
         return
     if mind is not None:
-        options["mind"] = minds.asked(mind).request
+        asked = minds.asked(mind)
+        # By its name alone it is a mind as fishes of the species have it.
+        options["mind"] = {"kind": asked.kind} if isinstance(mind, str) else asked.request
     Asked.__init__(fish, "roaming_fish", options, parameters)

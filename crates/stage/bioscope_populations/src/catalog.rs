@@ -89,12 +89,7 @@ fn tuned(
 
 fn read<T: DeserializeOwned>(kind: &str, options: &str) -> Result<T> {
     serde_json::from_str(options).map_err(|error| {
-        let whole = error.to_string();
-        // The text is ours, one line: only the field tells a user where to look.
-        let plain = whole.split(" at line ").next().unwrap_or(&whole);
-        let plain = WORDS.iter().fold(plain.to_owned(), |text, (type_name, word)| {
-            text.replace(&format!("expected {type_name}"), &format!("expected {word}"))
-        });
+        let plain = plain(&error);
         let what = match field_at(options, error.column()) {
             Some(field) if !plain.starts_with("missing field") => {
                 format!("option '{field}': {plain}")
@@ -102,6 +97,15 @@ fn read<T: DeserializeOwned>(kind: &str, options: &str) -> Result<T> {
             _ => plain,
         };
         Error::format(kind, what)
+    })
+}
+
+/// What is wrong with options, in words: their text is ours, so where in it tells a user nothing.
+pub fn plain(error: &serde_json::Error) -> String {
+    let whole = error.to_string();
+    let what = whole.split(" at line ").next().unwrap_or(&whole);
+    WORDS.iter().fold(what.to_owned(), |text, (type_name, word)| {
+        text.replace(&format!("expected {type_name}"), &format!("expected {word}"))
     })
 }
 
@@ -194,12 +198,15 @@ struct Roaming {
 }
 
 impl Roaming {
-    /// The mind asked for, for the fish of this number: females are spread evenly.
-    fn mind(&self, number: usize) -> Option<MindRequest> {
+    /// The mind asked for, for the fish of this number. Females are spread evenly, and are half of those who
+    /// live as their species do.
+    fn mind(&self, species: &FishSpecies, number: usize) -> Option<MindRequest> {
         let mut request = self.mind.clone()?;
-        if let Some(share) = self.females {
+        let share = self.females.or(request.nature.is_none().then_some(0.5));
+        request = request.of(species);
+        if let (Some(share), Some(nature)) = (share, &mut request.nature) {
             let females = |count: usize| (count as f64 * f64::from(share)).floor();
-            request.nature.habits.female = females(number + 1) > females(number);
+            nature.habits.female = females(number + 1) > females(number);
         }
         Some(request)
     }
@@ -232,7 +239,7 @@ fn roaming(
     let species = asked.species.get()?;
     let look = fish::look(&species);
     let animals = (0..asked.count).map(|number| {
-        if let Some(request) = asked.mind(number) {
+        if let Some(request) = asked.mind(&species, number) {
             let body = asked.body.unwrap_or(BodyKind::MuscleSwimmer);
             return fish::minded(&species, &look, &request, body);
         }

@@ -2,6 +2,7 @@ use bioscope_core::{
     Annotation, Error, Impact, Intention, Mark, NOTHING, Percepts, Purpose, Quat, Random, Sighting,
 };
 use bioscope_minds::Mind;
+use bioscope_populations::catalog::plain;
 use bioscope_populations::fish::{MindRequest, mind};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict, PyList};
@@ -24,7 +25,7 @@ impl FishMind {
     #[new]
     fn new(request: &str) -> PyResult<Self> {
         let request: MindRequest = serde_json::from_str(request)
-            .map_err(|error| to_python(Error::format("mind", error.to_string())))?;
+            .map_err(|error| to_python(Error::format("mind", plain(&error))))?;
         Ok(Self { mind: request.build().map_err(to_python)? })
     }
 

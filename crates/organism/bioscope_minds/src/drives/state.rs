@@ -63,7 +63,8 @@ impl Drives {
         let urge = temper.libido_growth * self.since_mating * (1.0 - self.hunger);
         self.libido = (urge + temper.mate_weight * mate).clamp(0.0, 1.0);
         let calmed = self.fear * (1.0 - math::relaxation(stirring.dt, temper.alarm_time));
-        self.fear = stirring.fear.min(1.0).max(calmed);
+        // A sum over nobody is minus zero; which of two zeros is the greater, machines disagree about.
+        self.fear = stirring.fear.min(1.0).max(calmed) + 0.0;
     }
 
     /// Takes note of having mated.

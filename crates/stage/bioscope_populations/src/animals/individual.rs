@@ -78,6 +78,8 @@ pub(super) struct Record {
     shown: Act,
     /// Stage of a courtship that is reported in this tick.
     stage: Option<usize>,
+    /// Whom it has courted last.
+    partner: Id,
     /// What somebody commands in place of its mind, which goes on feeling.
     pub steering: Option<Steering>,
     /// World time of its last decision, seconds; none before the first.
@@ -215,6 +217,9 @@ impl Record {
     fn court(&mut self) {
         let Display { act, partner, .. } = self.intention.display;
         let act = if partner == NOTHING && act != Act::Spawned { Act::Other } else { act };
+        if partner != NOTHING {
+            self.partner = partner;
+        }
         let reached = COURTSHIP.iter().position(|(one, _)| *one == act);
         self.stage = reached.filter(|_| act != self.shown);
         self.shown = act;
@@ -224,7 +229,8 @@ impl Record {
     pub fn events(&self) -> impl Iterator<Item = (&'static str, Option<Id>)> {
         let target = self.intention.target.filter(|&target| target != NOTHING);
         let news = self.news.map(|index| (NOTEWORTHY[index].1, target));
-        let stage = self.stage.map(|index| (COURTSHIP[index].1, target));
+        let partner = Some(self.partner).filter(|&partner| partner != NOTHING);
+        let stage = self.stage.map(|index| (COURTSHIP[index].1, partner));
         news.into_iter().chain(stage)
     }
 }

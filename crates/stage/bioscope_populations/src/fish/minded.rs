@@ -10,6 +10,8 @@ use bioscope_senses::{
 };
 use serde::Deserialize;
 
+use super::FishSpecies;
+
 /// The kinds of minds that a fish can be asked for with.
 pub const MINDS: [&str; 3] = ["behavior_network", "free_flow", "intentions"];
 
@@ -19,9 +21,8 @@ pub const MINDS: [&str; 3] = ["behavior_network", "free_flow", "intentions"];
 pub struct MindRequest {
     /// One of [`MINDS`].
     pub kind: String,
-    /// What the fish is.
-    #[serde(default)]
-    pub nature: Nature,
+    /// What the fish is; as its species are if not given.
+    pub nature: Option<Nature>,
     /// How it feels and acts, where that differs from the default.
     #[serde(default)]
     pub temper: BTreeMap<String, f64>,
@@ -37,7 +38,7 @@ impl MindRequest {
         for (name, value) in &self.temper {
             temper.set(name, *value)?;
         }
-        let nature = self.nature.clone();
+        let nature = self.nature.clone().unwrap_or_default();
         match self.kind.as_str() {
             "intentions" => Ok(Box::new(Intentions::new(nature, temper))),
             "behavior_network" => Ok(Box::new(BehaviorNetwork::new(nature, temper))),
@@ -49,9 +50,10 @@ impl MindRequest {
     /// The senses that go with it: cyclopean sight within 15 times the size of what is seen, smell of its food,
     /// touch, hearing, lateral line, light.
     pub fn senses(&self) -> Vec<Box<dyn Sense>> {
+        let food = self.nature.as_ref().map(|nature| nature.food.clone()).unwrap_or_default();
         let mut senses: Vec<Box<dyn Sense>> = vec![
             Box::new(Sight::new(SightParameters::fish())),
-            Box::new(Smell::new(self.nature.food.clone(), SmellParameters::default())),
+            Box::new(Smell::new(food, SmellParameters::default())),
             Box::new(Touch::default()),
             Box::new(Hearing::default()),
             Box::new(LateralLine),
@@ -63,10 +65,20 @@ impl MindRequest {
         senses
     }
 
-    /// The same for a fish of this species, if it does not say of which.
-    pub fn of(mut self, species: &Arc<str>) -> Self {
-        if self.nature.species.is_empty() {
-            self.nature.species = species.clone();
+    /// The same for a fish of this species, as far as it does not say otherwise. Names of families stand for their
+    /// species.
+    pub fn of(mut self, species: &FishSpecies) -> Self {
+        let nature = self.nature.get_or_insert_with(|| species.nature.clone());
+        if nature.species.is_empty() {
+            nature.species = Arc::from(species.name.as_str());
+        }
+        for names in [&mut nature.enemies, &mut nature.food, &mut nature.leaders] {
+            let meant: Vec<_> = names.iter().flat_map(|name| FishSpecies::meant(name)).collect();
+            for name in meant {
+                if !names.iter().any(|known| **known == *name) {
+                    names.push(Arc::from(name));
+                }
+            }
         }
         self
     }

@@ -84,7 +84,7 @@ pub fn minded(
     request: &MindRequest,
     body: BodyKind,
 ) -> Result<Animal> {
-    let request = request.clone().of(&look.species);
+    let request = request.clone().of(species);
     let (senses, mind) = (request.senses(), request.build()?);
     let body = body.build(species, look)?;
     Ok(Animal { senses, mind, body, look: look.clone(), may_fail: false })

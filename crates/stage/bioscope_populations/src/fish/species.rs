@@ -8,6 +8,7 @@
 use std::sync::{Arc, OnceLock};
 
 use bioscope_core::{Error, Result};
+use bioscope_minds::Nature;
 use bioscope_motion::undulation::{Gait, Style};
 use serde::{Deserialize, Serialize};
 
@@ -41,6 +42,9 @@ pub struct FishSpecies {
     pub detail: Detail,
     /// How it swims.
     pub swimming: Swimming,
+    /// How it lives, if it has a mind that is not told otherwise.
+    #[serde(default)]
+    pub nature: Nature,
     /// Shape of the trunk.
     pub outline: Outline,
     /// The eyes.
@@ -366,6 +370,12 @@ impl FishSpecies {
     /// The ready-made species of this name.
     pub fn named(name: &str) -> Result<Arc<Self>> {
         library::named(name)
+    }
+
+    /// The names of the ready-made species that are called so: one (`Butterfly fish`), or all of a family
+    /// (`shark`); none if the name is of another kind of thing.
+    pub fn meant(name: &str) -> Vec<&'static str> {
+        library::meant(name)
     }
 
     /// The names of all ready-made species.

@@ -1,6 +1,7 @@
 //! What a species must be to be built: every number finite and in its range.
 
 use bioscope_core::{Error, Result};
+use bioscope_minds::Nature;
 
 use super::{Eye, FinLook, FishSpecies, Line, Outline, Place, Skin};
 
@@ -24,6 +25,7 @@ pub fn check(species: &FishSpecies, file: &str) -> Result<()> {
     checker.number("swimming.waves", swimming.waves, [0.3, 3.0])?;
     checker.number("swimming.cruise", swimming.cruise, [0.05, 10.0])?;
     checker.number("swimming.burst", swimming.burst, [swimming.cruise, 40.0])?;
+    checker.nature(&species.nature)?;
     checker.outline(&species.outline)?;
     checker.eye(&species.eye)?;
     checker.line("mouth", &species.mouth)?;
@@ -86,6 +88,22 @@ impl Checker {
                 Err(self.fault(&format!("{field}[{}]", index + 1), values[index + 1], expected))
             }
         }
+    }
+
+    fn nature(&self, nature: &Nature) -> Result<()> {
+        let Nature { enemies, food, leaders, species, .. } = nature;
+        if !species.is_empty() {
+            return Err(self.fault("nature.species", species, "nothing: `name` says it"));
+        }
+        [("enemies", enemies), ("food", food), ("leaders", leaders)].into_iter().try_for_each(
+            |(list, names)| {
+                self.count(&format!("nature.{list}"), names.len(), 0)?;
+                let mut names = names.iter().enumerate();
+                names.try_for_each(|(index, name)| {
+                    self.name(&format!("nature.{list}[{index}]"), name)
+                })
+            },
+        )
     }
 
     fn outline(&self, outline: &Outline) -> Result<()> {

@@ -49,15 +49,23 @@ pub fn named(name: &str) -> Result<Arc<FishSpecies>> {
     Ok(Arc::clone(READ[number].get_or_init(|| species)))
 }
 
-/// Which species is called so, however its words are joined (`Emperor angelfish`, `butterfly fish`); or the first
-/// that is one of these (`shark`).
+/// Which species is called so, or the first of the family that is (`shark`).
 fn number(name: &str) -> Option<usize> {
+    let first = *meant(name).first()?;
+    FILES.iter().position(|(known, _)| *known == first)
+}
+
+/// The species that is called so, however its words are joined (`Emperor angelfish`, `butterfly fish`); or all of
+/// the family that is (`shark`).
+pub fn meant(name: &str) -> Vec<&'static str> {
     let joined = |name: &str| -> String {
         let letters = name.chars().filter(|letter| !matches!(letter, '_' | '-' | ' '));
         letters.flat_map(char::to_lowercase).collect()
     };
     let asked = joined(name);
     let is_one = |known: &str| known.rsplit_once('_').is_some_and(|(_, family)| family == asked);
-    let whole = FILES.iter().position(|(known, _)| joined(known) == asked);
-    whole.or_else(|| FILES.iter().position(|(known, _)| is_one(known)))
+    match names().into_iter().find(|known| joined(known) == asked) {
+        Some(species) => vec![species],
+        None => names().into_iter().filter(|known| is_one(known)).collect(),
+    }
 }
