@@ -191,11 +191,16 @@ def test_a_higher_libido_brings_them_together_earlier():
     assert 20 < first(0.01) < 40, "when its libido is above 0.3"
 
 
-@pytest.mark.capability("TF-206")
-def test_the_published_scene_runs_a_hundred_times_as_fast(bioscope):
+@pytest.mark.capability("TF-206", "AA-012")
+def test_the_published_scene_runs_a_thousand_times_as_fast(bioscope):
     """10 fishes, 15 morsels and 4 cylinders ran at 4 frames per second in 1996."""
-    done = bioscope("bench", "fish.scene")
-    assert done.returncode == 0, done.stderr
-    figure = json.loads(done.stdout.splitlines()[-1])
-    assert figure["name"] == "fish.scene"
-    assert figure["value"] > 400, "ticks per second of one core's time"
+
+    def rate() -> float:
+        done = bioscope("bench", "fish.scene")
+        assert done.returncode == 0, done.stderr
+        figure = json.loads(done.stdout.splitlines()[-1])
+        assert (figure["name"], figure["target"]) == ("fish.scene", 4000)
+        return figure["value"]
+
+    # Others may keep the machine busy for a moment.
+    assert any(rate() > 4000 for _ in range(3)), "ticks per second of one core's time"
