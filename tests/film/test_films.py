@@ -46,6 +46,15 @@ def test_after_a_trial_run_the_film_shows_what_it_is_about(name):
         assert sum((after == one).mean() for one in who) > 0.003, event
 
 
+def test_a_story_in_which_nothing_happens_is_said_to_be_one(monkeypatch):
+    module = importlib.import_module("bioscope.worlds.preying.world")
+    monkeypatch.setattr(module, "TRIAL", 0.5)
+    with pytest.raises(
+        bio.BioscopeError, match=r"preying: what the film shows did not happen in 0\.5 s"
+    ):
+        bio.worlds.shots("preying")
+
+
 def filmed(world, operator, until):
     """Return whom the film's picture shows at a time: identities by pixel."""
     while world.time < until:

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import bioscope as bio
+from bioscope.geometry.skinning import bent
 
 PILLARS = [((-1.7, -1.2), 0.28, -2.9), ((1.9, -0.6), 0.22, -3.6)]
 FEEDERS = ("parrotfish", "butterflyfish", "yellow_tang")
@@ -52,6 +53,27 @@ def test_the_first_who_bites_is_hooked_and_hauled_to_the_surface(story):
     wound = [height for time, height in hooks if event.time + 0.5 < time < landed[0].time]
     assert all(b > a for a, b in itertools.pairwise(wound))
     assert batch(world, "bait") is None
+
+
+def test_who_is_hooked_hangs_by_the_mouth():
+    world = bio.World(seed=3, dt=1 / 30)
+    world.environment.water()
+    hungry = bio.minds.Intentions("pacifist", food=["bait"], stagger=0.0)
+    world.add(bio.RoamingFish("parrotfish", 1, center=(0, -2, 2.5), radius=0.1, mind=hungry))
+    world.add(bio.FishingLine(depth=2.0, sinking=2.0))
+    while not any(event.kind == "hooked" for event in world.drain_events()):
+        world.step()
+        assert world.time < 30
+    for _ in range(20):
+        world.step(3)
+        fish, hook = batch(world, "parrotfish"), batch(world, "fishing_line").positions[0]
+        mesh, turn = fish.mesh, fish.rotations[0]
+        snout = np.argmax(mesh.positions[:, 2])
+        skin = bent(mesh, fish.poses[0])[0][snout] * fish.scales[0]
+        x, y, z, w = turn
+        axis = np.array([x, y, z])
+        place = skin + 2 * np.cross(axis, np.cross(axis, skin) + w * skin) + fish.positions[0]
+        assert np.linalg.norm(place - hook) < 0.04 * np.ptp(mesh.positions[:, 2]) * fish.scales[0]
 
 
 @pytest.mark.capability("TF-165")

@@ -44,12 +44,21 @@ def shots(name: str) -> list[Shot]:
 
     A world whose module has a function `direct` is watched for `TRIAL` seconds first, and films
     what happens when and where it happens; of others the world's own list is taken.
+
+    Raises
+    ------
+    BioscopeError
+        If what the film is about did not happen.
     """
     from bioscope.film.direction import Shot, Story
 
     world, module = load(name, films()[name]), _module(name)
     if hasattr(module, "direct"):
-        return list(module.direct(Story(world, module.TRIAL)))
+        try:
+            return list(module.direct(Story(world, module.TRIAL)))
+        except (LookupError, StopIteration, ValueError) as error:
+            story = f"{module.TRIAL} s from seed {world.seed}"
+            raise BioscopeError(f"{name}: what the film shows did not happen in {story}") from error
     return [Shot(seconds, camera) for camera, seconds in world.shots]
 
 

@@ -4,7 +4,8 @@ use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 use bioscope_core::{Event, Id, Intention, Vec3, math};
-use bioscope_geometry::Scene;
+use bioscope_geometry::{Scene, Transform};
+use bioscope_motion::Body;
 
 use super::feeding::MOUTH;
 use super::individual::{Individual, Record};
@@ -56,8 +57,19 @@ impl Individual {
     /// Hangs by the mouth at this point.
     pub(super) fn hang(&mut self, hook: Vec3) {
         let body = &mut self.parts.body;
-        let placement = body.placement();
-        let mouth = placement.position + placement.rotation() * Vec3::Z * (MOUTH * body.length());
+        let mouth = mouth(body.as_ref());
         body.shift(hook - mouth);
+    }
+}
+
+/// Where the mouth of a body is that may be bent.
+fn mouth(body: &dyn Body) -> Vec3 {
+    let placement = body.placement();
+    let mut poses = vec![Transform::IDENTITY; body.joint_count()];
+    body.pose(&mut poses);
+    // The first joint of a spine is at its snout.
+    match poses.first() {
+        Some(snout) => placement.point(snout.position),
+        None => placement.position + placement.rotation() * Vec3::Z * (MOUTH * body.length()),
     }
 }
