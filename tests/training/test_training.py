@@ -43,6 +43,35 @@ def test_gymnasium_accepts_it():
     assert picture.std() > 1.0
 
 
+def test_gymnasium_accepts_the_body_alone():
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        env = gymnasium.make("bioscope/FishSwimming-v0", seconds=1.0)
+        check_env(env.unwrapped)
+    env.reset(seed=1)
+    with pytest.raises(InvalidValueError, match="activations"):
+        env.step(np.full(12, np.nan, np.float32))
+    with pytest.raises(InvalidValueError, match="seconds"):
+        training.FishSwimming(seconds=float("nan"))
+
+
+def test_muscles_that_beat_in_turn_swim_and_those_at_rest_do_not():
+    def swum(beats: bool) -> float:
+        env = training.FishSwimming(seconds=6.0)
+        env.reset(seed=3)
+        way, time, over = 0.0, 0.0, False
+        while not over:
+            fore = np.sin(2 * np.pi * 2.0 * time) if beats else 0.0
+            sides = [max(fore, 0.0)] * 2 + [max(-fore, 0.0)] * 2
+            action = np.array([0.0] * 4 + sides + sides[2:] + sides[:2], np.float32)
+            _, reward, _, over, info = env.step(action)
+            way, time = way + info["way"], time + 1 / 30
+            assert reward <= info["way"]
+        return way
+
+    assert swum(True) > swum(False) + 2.0
+
+
 def test_the_same_seed_gives_the_same_episode():
     def episode():
         env = training.FishForaging(seconds=2.0)

@@ -1,7 +1,8 @@
 """Worlds as training environments: Gymnasium for one fish, PettingZoo for many.
 
-Importing this module registers the Gymnasium ids `bioscope/FishForaging-v0`. It needs the extra
-`rl`: `pip install "bioscope[rl]"`.
+Importing this module registers the Gymnasium ids `bioscope/FishForaging-v0` (senses in, orders to
+the motor controllers out) and `bioscope/FishSwimming-v0` (what the body feels in, contractions of
+its muscles out). It needs the extra `rl`: `pip install "bioscope[rl]"`.
 
 Examples
 --------
@@ -24,10 +25,19 @@ from bioscope.training.foraging import FishForaging
 from bioscope.training.observation import Observation
 from bioscope.training.pupil import Pupil
 from bioscope.training.schooling import SchoolEnv, school_parallel_env
+from bioscope.training.swimming import FishSwimming
 
-if "bioscope/FishForaging-v0" not in _gymnasium.registry:
-    _gymnasium.register(
-        id="bioscope/FishForaging-v0", entry_point="bioscope.training.foraging:FishForaging"
-    )
+for _name, _place in (("FishForaging", "foraging"), ("FishSwimming", "swimming")):
+    if f"bioscope/{_name}-v0" not in _gymnasium.registry:
+        _gymnasium.register(
+            id=f"bioscope/{_name}-v0", entry_point=f"bioscope.training.{_place}:{_name}"
+        )
 
-__all__ = ["FishForaging", "Observation", "Pupil", "SchoolEnv", "school_parallel_env"]
+__all__ = [
+    "FishForaging",
+    "FishSwimming",
+    "Observation",
+    "Pupil",
+    "SchoolEnv",
+    "school_parallel_env",
+]

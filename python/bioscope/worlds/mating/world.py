@@ -75,7 +75,8 @@ def _place_cameras(bay: bio.World) -> None:
 def direct(story: Story) -> list[Shot]:
     """Film the rivals, the dances of both pairs, the loser, and the spawning."""
     circling = story.all("circled", _IDOL)[0]
-    groom, bride = circling.subject, circling.object
+    # Events of courtship have the partner for their object; none would be nobody, 0.
+    groom, bride = circling.subject, circling.object or 0
     loser = next(one for one in story.ids(_IDOL) if one not in (groom, bride))
     pair, other = story.ids(_ANGELFISH), story.ids(_BUTTERFLYFISH)
     nuzzling = story.all("mated", _IDOL)[0].time
