@@ -176,6 +176,32 @@ def test_without_water_the_tail_beats_in_place():
     assert wide > narrow
 
 
+@pytest.mark.capability("TF-018", "TF-024")
+def test_without_water_fins_move_and_right_nothing():
+    for order in (lambda tank: tank.ascend(0.8), lambda tank: tank.backward(0.1), None):
+        tank = bio.fish.Tank("anthias", water=0.0)
+        tank.place(roll=0.5)
+        if order:
+            order(tank)
+        tank.run(5)
+        assert np.linalg.norm(tank.center) < 1e-6 * tank.length
+        assert tank.roll == pytest.approx(0.5, abs=1e-3)
+
+
+@pytest.mark.capability("TF-017", "TF-026")
+@pytest.mark.parametrize("water", [0.0, 1.0])
+def test_a_passive_body_never_gains_energy(water):
+    rng = np.random.default_rng(1)
+    tank = bio.fish.Tank("clownfish", water=water)
+    tank.deform(tank.nodes + rng.normal(0, 0.02 * tank.length, (23, 3)))
+    tank.kick((0.05, 0.02, -0.1))
+    energy = [tank.energy]
+    for _ in range(2000):
+        tank.step(np.zeros(12))
+        energy.append(tank.energy)
+    assert np.diff(energy).max() <= 1e-9 * energy[0]
+
+
 @pytest.mark.capability("TF-019", "TF-025", "TF-170", "AA-027")
 def test_a_passive_fish_floats_and_is_carried_by_the_current():
     tank = bio.fish.Tank("anthias")

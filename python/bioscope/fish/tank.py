@@ -52,10 +52,10 @@ class Tank:
     length
         Metres from snout to tail; by default that of the species.
     integrator
-        `implicit` (default), `semi_implicit` (the published scheme, which needs steps of at most
-        0.03 time units), `symplectic` or `explicit`.
+        `implicit` (default), `semi_implicit` (the published scheme, which holds in ordinary
+        swimming only), `symplectic` or `explicit`.
     water
-        Thickness of the medium: 0 is air, 1 water, more is oil.
+        Thickness of the medium for skin and fins: 0 is air, 1 water, more is oil.
 
     Examples
     --------

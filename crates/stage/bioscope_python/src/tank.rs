@@ -332,6 +332,8 @@ impl Tank {
         }
         model.mechanics.medium.thickness = water;
         model.mechanics.medium = model.mechanics.medium.checked()?;
+        // The pectoral fins push the same water as the skin.
+        model.design.medium = model.mechanics.medium;
         let length = length.unwrap_or(f64::from(species.length));
         let cruise = f64::from(species.swimming.cruise);
         let fish = stocked(Arc::new(model), cruise, Quat::IDENTITY, length)?;
