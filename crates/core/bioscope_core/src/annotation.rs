@@ -1,3 +1,5 @@
+use std::borrow::Cow;
+
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
@@ -10,7 +12,7 @@ pub struct Annotation {
     /// Whose work it shows.
     pub subject: Id,
     /// What it stands for: `heading`, `avoid`, `target`, `neighbors`; one colour per role.
-    pub role: String,
+    pub role: Cow<'static, str>,
     /// The shape to draw.
     pub mark: Mark,
 }

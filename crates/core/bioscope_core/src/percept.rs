@@ -1,3 +1,4 @@
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -115,7 +116,7 @@ pub struct Hearing {
     /// Identity of its source.
     pub source: Id,
     /// Which noise.
-    pub kind: String,
+    pub kind: Cow<'static, str>,
     /// Direction it comes from, own frame, unit length.
     pub direction: Vec3,
     /// Amplitude at the ear.

@@ -46,7 +46,7 @@ impl Solids {
 
     /// Those that may reach into the box between these corners (metres), in their order; some that do not are among
     /// them.
-    pub fn within(&self, low: Vec3, high: Vec3) -> impl Iterator<Item = &Obstacle> {
+    pub fn within(&self, low: Vec3, high: Vec3) -> impl ExactSizeIterator<Item = &Obstacle> {
         let mut found = Vec::new();
         if !self.all.is_empty() {
             self.tree.get_or_init(|| Tree::new(&self.all)).find(&Bounds { low, high }, &mut found);

@@ -50,7 +50,7 @@ fn hear_one(ear: &Ear, medium: &Medium, event: &SoundEvent, now: f64, dt: f32) -
     let direction = (ear.rotation.inverse() * arriving.offset).normalize_or(Vec3::Z);
     (amplitude >= ear.threshold).then(|| Hearing {
         source: event.source,
-        kind: event.kind.clone().into_owned(),
+        kind: event.kind.clone(),
         direction,
         amplitude,
     })

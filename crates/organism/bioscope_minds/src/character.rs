@@ -179,9 +179,9 @@ impl Character {
         annotations: &mut Vec<Annotation>,
     ) -> Intention {
         let found = situation.find(deed.target).filter(|_| deed.target != NOTHING);
-        let mut note = |role: &str, to: Vec3| {
+        let mut note = |role: &'static str, to: Vec3| {
             let mark = Mark::Line { from: Vec3::ZERO, to };
-            annotations.push(Annotation { subject: NOTHING, role: role.to_owned(), mark });
+            annotations.push(Annotation { subject: NOTHING, role: role.into(), mark });
         };
         let command = &deed.command;
         note("heading", command.heading() * situation.length);

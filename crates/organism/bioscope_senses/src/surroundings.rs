@@ -71,9 +71,10 @@ impl<'a> Surroundings<'a> {
     }
 
     /// Begins percepts anew with what every animal knows of itself without a sense of its own: name, time, motion,
-    /// balance, size, depth and the way home. Lists stay as they were, for the senses to overwrite them.
+    /// balance, size, depth and the way home. Lists and further percepts stay as they were, for the senses to
+    /// overwrite them.
     pub fn begin(&self, percepts: &mut Percepts) {
-        let Percepts { seen, smelled, solids, heard, .. } = std::mem::take(percepts);
+        let Percepts { seen, smelled, solids, heard, other, .. } = std::mem::take(percepts);
         *percepts = Percepts {
             id: self.id,
             time: self.time,
@@ -87,6 +88,7 @@ impl<'a> Surroundings<'a> {
             smelled,
             solids,
             heard,
+            other,
             ..Percepts::default()
         };
     }

@@ -114,7 +114,7 @@ fn annotations_list<'py>(
     let list = PyList::empty(py);
     for one in annotations {
         if let Mark::Line { from, to } = &one.mark {
-            list.append((one.role.as_str(), from.to_array(), to.to_array()))?;
+            list.append((one.role.as_ref(), from.to_array(), to.to_array()))?;
         }
     }
     Ok(list)

@@ -55,7 +55,7 @@ impl Mind for PythonMind {
         let to = intention.heading.normalize_or_zero();
         annotations.push(Annotation {
             subject: bioscope_core::NOTHING,
-            role: String::from("heading"),
+            role: "heading".into(),
             mark: Mark::Line { from: Vec3::ZERO, to },
         });
         Ok(intention)
@@ -161,7 +161,7 @@ fn percepts_dict<'py>(
     for one in &percepts.heard {
         let hearing = PyDict::new(py);
         hearing.set_item("source", one.source)?;
-        hearing.set_item("kind", &one.kind)?;
+        hearing.set_item("kind", one.kind.as_ref())?;
         hearing.set_item("direction", one.direction.to_array())?;
         hearing.set_item("amplitude", one.amplitude)?;
         heard.append(hearing)?;

@@ -227,7 +227,7 @@ impl Publication {
 
 impl Publication {
     fn annotate(&self, subject: u32, role: &str, mark: Mark) {
-        self.parts().annotations.push(Annotation { subject, role: role.to_owned(), mark });
+        self.parts().annotations.push(Annotation { subject, role: role.to_owned().into(), mark });
     }
 }
 

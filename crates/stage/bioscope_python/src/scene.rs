@@ -83,7 +83,7 @@ fn annotation<'py>(
 ) -> PyResult<Bound<'py, PyDict>> {
     let dict = PyDict::new(py);
     dict.set_item("subject", one.subject)?;
-    dict.set_item("role", &one.role)?;
+    dict.set_item("role", one.role.as_ref())?;
     match &one.mark {
         Mark::Line { from, to } => {
             let line: Vec<f32> = from.to_array().into_iter().chain(to.to_array()).collect();

@@ -149,7 +149,7 @@ fn drifting(points: &Points) -> DriftingMessage {
 }
 
 fn annotation(annotation: &Annotation) -> AnnotationMessage<'_> {
-    let (subject, role) = (annotation.subject, annotation.role.as_str());
+    let (subject, role) = (annotation.subject, annotation.role.as_ref());
     let message = AnnotationMessage { subject, role, ..Default::default() };
     match &annotation.mark {
         Mark::Line { from, to } => AnnotationMessage { line: Some(corners(*from, *to)), ..message },

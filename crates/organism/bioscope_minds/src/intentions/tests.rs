@@ -215,7 +215,7 @@ fn displays_and_annotations_show_what_it_does() {
     let mut notes = Vec::new();
     let mut random = Random::new(9, 1, 0, Purpose::new("test"));
     mind.decide(&now, &mut random, &mut notes).unwrap();
-    let roles: Vec<_> = notes.iter().map(|note| note.role.as_str()).collect();
+    let roles: Vec<_> = notes.iter().map(|note| note.role.as_ref()).collect();
     assert_eq!(roles, ["heading", "target"]);
 }
 

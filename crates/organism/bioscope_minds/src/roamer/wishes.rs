@@ -167,7 +167,7 @@ fn sideways(point: Vec3) -> Vec3 {
     if direction.z >= 0.0 { across } else { across.try_normalize().unwrap_or(Vec3::X) }
 }
 
-fn note(annotations: &mut Vec<Annotation>, role: &str, from: Vec3, to: Vec3) {
+fn note(annotations: &mut Vec<Annotation>, role: &'static str, from: Vec3, to: Vec3) {
     let mark = Mark::Line { from, to };
-    annotations.push(Annotation { subject: NOTHING, role: role.to_owned(), mark });
+    annotations.push(Annotation { subject: NOTHING, role: role.into(), mark });
 }

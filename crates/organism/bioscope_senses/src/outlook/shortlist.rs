@@ -55,12 +55,12 @@ impl PartialEq for Shortlist {
 impl Shortlist {
     /// Calls `visit` for every thing of the register within reach of `center` (metres) that `keep` keeps, in no
     /// particular order; some that lie farther are visited too. `keep` must keep the same things at all times.
-    pub fn near(
+    pub fn near<'a>(
         &mut self,
-        register: &Register,
+        register: &'a Register,
         (center, reach): (Vec3, Reach),
         keep: impl Fn(&Thing) -> bool,
-        mut visit: impl FnMut(&Thing),
+        mut visit: impl FnMut(&'a Thing),
     ) {
         let left = self.margin - used(self.made, (center, register.way()));
         let holds = register.age().0 == self.age.0 && reach == self.reach && left >= 0.0;

@@ -25,8 +25,9 @@ impl<'a> Cover<'a> {
     /// All that may hide something within `reach` metres of the eye.
     pub fn new(surroundings: &Surroundings<'a>, eye: Vec3, reach: f32) -> Self {
         let within = surroundings.obstacles.within(eye - reach, eye + reach);
+        let mut solids = Vec::with_capacity(within.len());
         let distances = within.map(|one| (one.distance(eye), one));
-        let solids = distances.filter(|&(distance, _)| distance <= reach).collect();
+        solids.extend(distances.filter(|&(distance, _)| distance <= reach));
         let terrain = surroundings.terrain;
         let summit = terrain.map_or(f32::NEG_INFINITY, |terrain| {
             terrain.bound([eye.x - reach, eye.z - reach], [eye.x + reach, eye.z + reach])

@@ -44,11 +44,23 @@ pub struct Sight {
 
 /// Something within range and field of view.
 #[derive(Clone, Copy)]
-struct Candidate {
-    /// Whether it stays where it is: of less interest.
-    stays: bool,
+struct Candidate<'a> {
+    /// What moves before what [`STAYS`], the nearest first, then by identity.
+    rank: u64,
+    /// Metres from the eye.
     distance: f32,
-    thing: Thing,
+    thing: &'a Thing,
+}
+
+/// Rank of what stays where it is, which is of less interest.
+const STAYS: u64 = 1 << 63;
+
+impl<'a> Candidate<'a> {
+    fn new(thing: &'a Thing, distance: f32, stays: bool) -> Self {
+        // Distances are not negative, so that their bits rise with them.
+        let nearness = u64::from(distance.to_bits()) << 32 | u64::from(thing.id);
+        Self { rank: if stays { STAYS | nearness } else { nearness }, distance, thing }
+    }
 }
 
 impl Sight {
@@ -58,11 +70,11 @@ impl Sight {
     }
 
     /// Adds everything within range and field of view: what moves, or what stays where it is.
-    fn look_for(
+    fn look_for<'a>(
         &mut self,
         stays: bool,
-        (surroundings, eye): (&Surroundings, Vec3),
-        candidates: &mut Vec<Candidate>,
+        (surroundings, eye): (&Surroundings<'a>, Vec3),
+        candidates: &mut Vec<Candidate<'a>>,
     ) {
         let range = self.parameters.range.min(visibility(surroundings.medium));
         let half_angle = (0.5 * self.parameters.field_of_view).min(180.0).to_radians();
@@ -84,14 +96,14 @@ impl Sight {
                     && offset.dot(heading) >= least_cosine * distance
                     && thing.id != surroundings.id;
                 if seen {
-                    candidates.push(Candidate { stays, distance, thing: *thing });
+                    candidates.push(Candidate::new(thing, distance, stays));
                 }
             },
         );
     }
 
     /// Those that are attended to: the nearest that are not hidden, what moves before what stays.
-    fn attended(&mut self, surroundings: &Surroundings, eye: Vec3) -> Vec<Candidate> {
+    fn attended<'a>(&mut self, surroundings: &Surroundings<'a>, eye: Vec3) -> Vec<Candidate<'a>> {
         let attention = self.parameters.attention as usize;
         // Some more than are attended to, for those that turn out to be hidden.
         let enough = attention + attention / 2 + 8;
@@ -103,7 +115,7 @@ impl Sight {
             self.look_for(true, (surroundings, eye), &mut candidates);
         }
         if candidates.len() > enough {
-            candidates.select_nth_unstable_by(enough - 1, order);
+            candidates.select_nth_unstable_by_key(enough - 1, |one| one.rank);
         }
         let first = enough.min(candidates.len());
         let mut visible = Vec::with_capacity(attention.min(first));
@@ -114,21 +126,21 @@ impl Sight {
             }
             attend(&mut candidates[first..], (surroundings, eye), (attention, &mut visible));
         }
-        visible.sort_unstable_by(|a, b| order(&Candidate { stays: b.stays, ..*a }, b));
+        visible.sort_unstable_by_key(|one| one.rank & !STAYS);
         visible
     }
 }
 
 /// Adds the first of the candidates that are not hidden, until there are `attention`.
-fn attend(
-    candidates: &mut [Candidate],
+fn attend<'a>(
+    candidates: &mut [Candidate<'a>],
     (surroundings, eye): (&Surroundings, Vec3),
-    (attention, visible): (usize, &mut Vec<Candidate>),
+    (attention, visible): (usize, &mut Vec<Candidate<'a>>),
 ) {
     if candidates.is_empty() {
         return;
     }
-    candidates.sort_unstable_by(order);
+    candidates.sort_unstable_by_key(|one| one.rank);
     let near = near_solids(surroundings);
     let farthest = candidates.iter().map(|one| one.distance).fold(near, f32::max);
     let cover = Cover::new(surroundings, eye, farthest);
@@ -142,12 +154,6 @@ fn attend(
 /// Distance in metres from which solids are noticed on all sides.
 fn near_solids(surroundings: &Surroundings) -> f32 {
     NEAR_SOLIDS * surroundings.body_length
-}
-
-/// What moves first, then the nearest.
-fn order(a: &Candidate, b: &Candidate) -> std::cmp::Ordering {
-    let order = a.stays.cmp(&b.stays).then(a.distance.total_cmp(&b.distance));
-    order.then(a.thing.id.cmp(&b.thing.id))
 }
 
 /// Where a thing looks: a unit vector in the world; zero for what stays and has no front.
@@ -193,7 +199,7 @@ impl Sense for Sight {
         let visible = self.attended(surroundings, eye);
         percepts.seen.resize_with(visible.len(), Sighting::default);
         for (sighting, one) in percepts.seen.iter_mut().zip(&visible) {
-            see(surroundings, &one.thing, sighting);
+            see(surroundings, one.thing, sighting);
         }
         let solids = Cover::new(surroundings, eye, near_solids(surroundings));
         percepts.solids.clear();

@@ -1,9 +1,11 @@
-use bioscope_core::{Impact, Parameters, Percepts, Result, Vec3, parameters, state};
+use bioscope_core::{Impact, Parameters, Percepts, Result, Value, Vec3, parameters, state};
 use bioscope_geometry::{Obstacle, Terrain};
 use serde::{Deserialize, Serialize};
 
 use crate::{Sense, Surroundings};
 
+/// Name of the height above ground among further percepts.
+const ALTITUDE: &str = "altitude";
 /// Samples of the ground along the feeler.
 const GROUND_SAMPLES: u16 = 24;
 
@@ -41,10 +43,16 @@ impl Sense for Touch {
 
     fn sense(&mut self, surroundings: &Surroundings, percepts: &mut Percepts) -> Result<()> {
         percepts.ahead = impact_ahead(surroundings, &self.parameters);
-        if let Some(terrain) = surroundings.terrain {
-            let Vec3 { x, y, z } = surroundings.position;
-            let altitude = y - terrain.height(x, z);
-            percepts.other.insert(String::from("altitude"), altitude.into());
+        let Vec3 { x, y, z } = surroundings.position;
+        let altitude = surroundings.terrain.map(|terrain| Value::from(y - terrain.height(x, z)));
+        match (altitude, percepts.other.get_mut(ALTITUDE)) {
+            (Some(altitude), Some(known)) => *known = altitude,
+            (Some(altitude), None) => {
+                percepts.other.insert(String::from(ALTITUDE), altitude);
+            }
+            (None, _) => {
+                percepts.other.remove(ALTITUDE);
+            }
         }
         Ok(())
     }

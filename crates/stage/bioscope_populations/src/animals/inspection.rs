@@ -58,7 +58,7 @@ pub(crate) fn percepts(percepts: &Percepts) -> BTreeMap<String, Value> {
         note("obstacle_ahead_m", impact.distance.into());
     }
     if let Some(loudest) = percepts.heard.first() {
-        note("heard", loudest.kind.as_str().into());
+        note("heard", loudest.kind.as_ref().into());
         note("heard_direction", loudest.direction.into());
     }
     note("depth_m", percepts.depth.into());

@@ -317,10 +317,11 @@ impl Population for Animals {
             }
             let body = &individual.parts.body;
             let placement = body.placement();
-            let mut annotations = individual.record.annotations.clone();
+            let first = scene.annotations.len();
+            scene.annotations.extend_from_slice(&individual.record.annotations);
             let (position, attitude) = (placement.position, placement.rotation());
-            bioscope_minds::place(&mut annotations, individual.id, position, attitude);
-            scene.annotations.append(&mut annotations);
+            let annotations = &mut scene.annotations[first..];
+            bioscope_minds::place(annotations, individual.id, position, attitude);
             let first = sounds.len();
             body.sounds(sounds);
             sounds.extend(feeding::bite_sound(&individual.record, body.as_ref()));

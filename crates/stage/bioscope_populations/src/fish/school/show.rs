@@ -61,10 +61,10 @@ impl FishSchool {
         let reach = 3.0 * self.body_length();
         for (index, wish) in self.wishes.iter().enumerate().take(self.fishes.len()) {
             let from = self.flock.positions()[index];
-            let mut show = |role: &str, to: Vec3| {
+            let mut show = |role: &'static str, to: Vec3| {
                 let subject = self.flock.ids()[index];
                 let mark = Mark::Line { from, to };
-                annotations.push(Annotation { subject, role: role.to_owned(), mark });
+                annotations.push(Annotation { subject, role: role.into(), mark });
             };
             show("heading", from + self.flock.headings()[index] * reach);
             show(self.fishes[index].mode.name(), from + *wish * reach);
