@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import importlib
 import importlib.util
 import sys
@@ -50,16 +51,24 @@ def shots(name: str) -> list[Shot]:
     BioscopeError
         If what the film is about did not happen.
     """
-    from bioscope.film.direction import Shot, Story
+    from bioscope.film.direction import Shot
 
-    world, module = load(name, films()[name]), _module(name)
+    module = _module(name)
     if hasattr(module, "direct"):
-        try:
-            return list(module.direct(Story(world, module.TRIAL)))
-        except (LookupError, StopIteration, ValueError) as error:
-            story = f"{module.TRIAL} s from seed {world.seed}"
-            raise BioscopeError(f"{name}: what the film shows did not happen in {story}") from error
-    return [Shot(seconds, camera) for camera, seconds in world.shots]
+        return list(_directed(name, films()[name], module.TRIAL))
+    return [Shot(seconds, camera) for camera, seconds in load(name, films()[name]).shots]
+
+
+@functools.cache
+def _directed(name: str, seed: int, seconds: float) -> tuple[Shot, ...]:
+    """Return the shots of a story; one is watched only once, for it is always the same."""
+    from bioscope.film.direction import Story
+
+    try:
+        return tuple(_module(name).direct(Story(load(name, seed), seconds)))
+    except (LookupError, StopIteration, ValueError) as error:
+        story = f"{seconds} s from seed {seed}"
+        raise BioscopeError(f"{name}: what the film shows did not happen in {story}") from error
 
 
 @dataclass(frozen=True)
