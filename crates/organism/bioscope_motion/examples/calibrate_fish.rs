@@ -160,8 +160,8 @@ fn written(design: &FishDesign) -> String {
     }
     let _ = writeln!(
         text,
-        "]\n\n[fins]\narea = {:?}\nweights = {:?}\npitch = {:?}\nroll = {:?}\narm = {:?}\nyaw = {:?}\noar = {:?}",
-        fins.area, fins.weights, fins.pitch, fins.roll, fins.arm, fins.yaw, fins.oar
+        "]\n\n[fins]\narea = {:?}\nweights = {:?}\npitch = {:?}\nroll = {:?}\narm = {:?}\nyaw = {:?}\nrighting = {:?}\noar = {:?}",
+        fins.area, fins.weights, fins.pitch, fins.roll, fins.arm, fins.yaw, fins.righting, fins.oar
     );
     text
 }

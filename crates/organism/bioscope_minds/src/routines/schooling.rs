@@ -6,12 +6,13 @@ use super::{Chase, Command, chase};
 use crate::attention::{Situation, azimuth, elevation};
 use crate::nature::Temper;
 
-/// Deviation from the course of the school that it does not mind (Tu 1996, 6.5.2), halved: choice.
+/// Deviation from the way to its school that a chase swims through (Tu 1996, 6.5.2), halved: choice.
 const TOLERANCE: f32 = PI / 10.0;
-/// Share of a smaller deviation that it corrects at a time; of larger ones the more the larger they are.
-const GENTLE: f32 = 0.3;
 /// Sharpest turn in formation, radians: a sharper one breaks its stroke and leaves it behind.
-const SHARPEST: f32 = 0.8;
+const SHARPEST: f32 = 0.6;
+/// Neighbors whose common course counts in full. With fewer it counts less, else two who swim opposite ways take up each
+/// other's course over and over and circle on the spot.
+const AGREEING: f32 = 3.0;
 /// By how much it is faster per body length that it is behind its leader, body lengths per second.
 const HURRY: f32 = 0.25;
 /// Speed from which a course shows, body lengths per second.
@@ -27,6 +28,9 @@ const APART: f32 = 2.0;
 /// middle of those it sees; else it matches the mean course and speed of its neighbors, closes gaps wider than
 /// the wanted spacing and opens narrower ones, keeps their depth, brakes when it overtakes and hurries when
 /// it falls behind. The leader, if in view, counts as the neighbor that shows the way.
+///
+/// In formation it corrects every deviation in full (choice): the motor controllers are gentle with small ones and take
+/// away the swing of the beat by themselves, so a tolerance here leaves bodies of muscles drifting apart.
 pub fn school(situation: &Situation, temper: &Temper) -> Option<Command> {
     let length = situation.length;
     let nearest = situation.school.first().map(|one| one.position.length());
@@ -53,12 +57,12 @@ fn in_formation(situation: &Situation, leader: Option<&Sighting>, temper: &Tempe
     let neighbors = &situation.school[..situation.school.len().min(HEEDED)];
     let (middle, velocity) = mean(neighbors);
     let ways = neighbors.iter().map(|one| way(one, situation));
-    let course = ways.sum::<Vec3>().normalize_or_zero();
+    let course = ways.sum::<Vec3>() / (neighbors.len() as f32).max(AGREEING);
     // Towards each neighbor that is much farther than the spacing, away from those that are nearer.
     let spacing = temper.spacing * length;
     let pull = |place: Vec3| {
         let excess = place.length() / spacing - 1.0;
-        let weight = 0.5 * (excess - SLACK).clamp(0.0, 2.0) + 4.0 * excess.min(0.0);
+        let weight = 0.5 * (excess - SLACK).clamp(0.0, 2.0) + 5.0 * excess.min(0.0);
         place.normalize_or_zero() * weight
     };
     let gaps =
@@ -78,14 +82,12 @@ fn in_formation(situation: &Situation, leader: Option<&Sighting>, temper: &Tempe
         pace = 0.5 * (pace + situation.through_water(leader.velocity).length());
         pace += HURRY * length * (behind * to_leader.z).clamp(0.0, 4.0);
     }
-    let turn = azimuth(wanted);
     let along = middle.z / length;
     let speed = pace / length + 0.5 * (along + gaps.z).clamp(-1.0, 1.5);
     let speed = speed.clamp(0.3 * temper.cruise_speed, temper.full_speed);
     let overtakes = along < -0.8 && situation.own_speed() > 1.2 * pace;
     Command {
-        turn: (turn * (GENTLE + (turn.abs() - TOLERANCE).clamp(0.0, 1.0 - GENTLE)))
-            .clamp(-SHARPEST, SHARPEST),
+        turn: azimuth(wanted).clamp(-SHARPEST, SHARPEST),
         pitch: elevation(wanted + Vec3::Y * (0.3 * middle.y / length)).clamp(-0.8, 0.8),
         speed,
         brake: if overtakes { 0.4 } else { 0.0 },

@@ -63,10 +63,13 @@ impl Fins {
             _ => lift,
         };
         let lean = -effort(settings.roll, -roll, rates[1]);
-        let trim = [lift, lean].map(|one| settings.oar as f32 * slow * one / GREATEST);
+        let oar = settings.oar as f32 * slow;
+        let trim = [lift * oar, lean * oar.max(settings.righting as f32)].map(|one| one / GREATEST);
         let brake = command.brake.clamp(0.0, 1.0);
         self.angles = [-lean, lean].map(|lean| {
-            let angle = NEUTRAL + (lift + lean).clamp(-GREATEST, GREATEST);
+            // To keep upright goes before climbing.
+            let lift = lift * (1.0 - lean.abs() / GREATEST);
+            let angle = NEUTRAL + lift + lean;
             angle + (PI - angle) * brake
         });
         self.stroke(command, oars, dt);

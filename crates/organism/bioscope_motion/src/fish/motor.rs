@@ -100,6 +100,9 @@ const LOOKAHEAD: f32 = 1.5;
 /// in a turn by a given angle, and while led by a mind that corrects itself.
 const ALONE: (f32, f32) = (0.15, 1.0);
 const LED: (f32, f32) = (0.3, 0.85);
+/// Rise of the back up to which nothing is bent to turn, and from which all: a bend turns about the back, so one that leans
+/// over or points up steeply would roll and somersault (choice; without, fishes lay on their sides for 5 % of a film).
+const UPRIGHT: [f32; 2] = [0.3, 0.9];
 /// Radians, and radians per time unit, within which a watched turn is done.
 const ARRIVED: [f32; 2] = [0.08, 0.03];
 /// Extra stroke per lack of speed.
@@ -188,7 +191,7 @@ impl Motor {
     /// Goes on by `dt` time units.
     pub fn advance(&mut self, design: &FishDesign, feeling: &Feeling, dt: f32) -> Effort {
         self.feel(feeling, dt);
-        let turning = self.turn_or_hold(design, dt);
+        let turning = self.turn_or_hold(design, feeling.frame.up.y, dt);
         self.beat(design, dt);
         let slow = (1.0 - self.pace / design.swim.cruise as f32).clamp(0.0, 1.0);
         let effort = [self.bend, slow];
@@ -215,8 +218,9 @@ impl Motor {
         self.pace += (pace - self.pace) * dt / (PACE + dt);
     }
 
-    /// Sets the bend; returns whether a turn-MC has the anterior swim segment.
-    fn turn_or_hold(&mut self, design: &FishDesign, dt: f32) -> bool {
+    /// Sets the bend of one whose back points up by `rise` (1: upright); returns whether a turn-MC has the anterior swim
+    /// segment.
+    fn turn_or_hold(&mut self, design: &FishDesign, rise: f32, dt: f32) -> bool {
         if let Some(turn) = &mut self.turn {
             self.bend = turn.advance(&design.turn, self.bend, dt);
             if turn.is_done() {
@@ -231,6 +235,8 @@ impl Motor {
         let held = self.feedback && led;
         let lack = if held { self.to_turn - LOOKAHEAD * self.turning } else { 0.0 };
         let (small, deepest) = if self.rounding { ALONE } else { LED };
+        let upright = (rise - UPRIGHT[0]) / (UPRIGHT[1] - UPRIGHT[0]);
+        let deepest = deepest * upright.clamp(0.0, 1.0);
         let wanted = STEERING * lack * (lack.abs() / small).min(1.0) / authority;
         if self.to_turn.abs() < ARRIVED[0] && self.turning.abs() < ARRIVED[1] {
             self.rounding = false;

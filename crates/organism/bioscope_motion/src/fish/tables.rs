@@ -136,13 +136,15 @@ pub struct FinSettings {
     pub pitch: [f64; 2],
     /// Fin angle per error of roll, and per roll rate times time unit.
     pub roll: [f64; 2],
+    /// Greatest force of a fin up or down to keep upright at any speed, body masses times body lengths per time unit squared.
+    pub righting: f64,
     /// Greatest force of oaring, body masses times body lengths per time unit squared.
     pub oar: f64,
 }
 
 impl FinSettings {
     pub(super) fn check(&self) -> Result<()> {
-        let numbers = [self.area, self.oar, self.arm, self.yaw].into_iter();
+        let numbers = [self.area, self.oar, self.righting, self.arm, self.yaw].into_iter();
         let numbers = numbers.chain(self.weights).chain(self.pitch).chain(self.roll);
         for number in numbers {
             if !(0.0..=1e3).contains(&number) {

@@ -23,6 +23,12 @@ const BEHIND: f32 = 1.8;
 /// Deviation below which the course that it has is held, radians: it cannot tell it from the swing of its beat.
 const HELD: f32 = 0.06;
 
+/// Steepest way that is swum, radians; to what lies steeper it goes in turns.
+const STEEPEST: f32 = 0.9;
+
+/// Level share of a way from which it is turned to in full: one straight up or down lies to neither side.
+const LEVEL: f32 = 0.8;
+
 /// Share of its own climb that a fish gives up, so that one that only looks ahead comes back to level.
 const LEVELING: f32 = 0.3;
 
@@ -155,10 +161,11 @@ impl MuscleSwimmer {
         let yaw = |way: Vec3| math::atan2(way.x, way.z);
         let pitch = |way: Vec3| math::atan2(way.y, math::sqrt(way.x * way.x + way.z * way.z));
         let (way, ahead) = (rotation * intention.heading, rotation * Vec3::Z);
-        let climb = pitch(way) - LEVELING * pitch(ahead);
+        let climb = pitch(way).clamp(-STEEPEST, STEEPEST) - LEVELING * pitch(ahead);
         let motor = self.fish.motor(0);
         if intention.turn().abs() > STRAIGHT {
             let turn = wrapped(yaw(way) - yaw(ahead) + motor.sway());
+            let turn = turn * (math::sqrt(way.x * way.x + way.z * way.z) / LEVEL).min(1.0);
             // To what is behind it turns on over the side that it has begun with.
             let other_way = turn.abs() > BEHIND && turn * motor.bend < 0.0;
             let turn = if other_way { turn - TAU.copysign(turn) } else { turn };
