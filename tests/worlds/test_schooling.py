@@ -52,14 +52,13 @@ class Course:
         return gaps.min(axis=1) / self.length
 
 
-
 SETTLED = 8.0
 """Seconds after which those who began at rest, heading anywhere, are a school."""
 
 
-@pytest.fixture(scope="module", params=[bio.worlds.films()["schooling"]])
-def course(request):
-    return Course(request.param, 36)
+@pytest.fixture(scope="module")
+def course():
+    return Course(bio.worlds.films()["schooling"], 36)
 
 
 @pytest.mark.capability("TF-203", "TF-127", "TF-128")

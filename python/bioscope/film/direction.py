@@ -8,7 +8,7 @@ as Tu did by hand to bring events into one shot (X. Tu, "Artificial animals for 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -31,8 +31,8 @@ _MOMENTS = 5
 """Moments of a shot at which a point of view is tried."""
 _SKETCH = (80, 45)
 """Pixels of the pictures by which points of view are compared."""
-_SHORTEST = 1.5
-"""Length of a shot that is worth a cut, seconds."""
+_SHORTEST, _LONGEST = 1.5, 12.0
+"""Length of a shot that is worth a cut, and of one that is not yet too long, seconds."""
 _BEARINGS = 12
 _HEIGHTS = (-0.15, 0.05, 0.3)
 """Of the lens over its subjects, as a share of its distance."""
@@ -149,14 +149,16 @@ class Story:
     def sequence(self, parts: Sequence[Part]) -> list[Shot]:
         """Return the shots of a film, one after the other, from the start of the story.
 
-        Parts that end before the last one did are left out.
+        Parts that end before the last one did are left out; long ones are filmed in several shots.
         """
         shots, begin = [], self._start
         for part in parts:
-            seconds = part.end - begin
-            if seconds >= _SHORTEST:
-                shots.append(self._shot(begin, seconds, part))
-                begin = part.end
+            if part.end - begin < _SHORTEST:
+                continue
+            ends = np.linspace(begin, part.end, math.ceil((part.end - begin) / _LONGEST) + 1)[1:]
+            for end in ends.tolist():
+                shots.append(self._shot(begin, end - begin, part))
+                begin = end
         return shots
 
     def _shot(self, begin: float, seconds: float, part: Part) -> Shot:
@@ -172,8 +174,10 @@ class Story:
         wanted = [*part.subjects, *part.beyond]
         scores = sum(_scores(scene, one, wanted, arms, angle) for scene, one in kept)
         arm = arms[int(np.argmax(scores))]
-        moment = 0.0 if part.still is None else part.still - begin
-        return Shot(seconds, "", tuple(part.subjects), arm, angle, part.plate, moment)
+        shot = Shot(seconds, "", tuple(part.subjects), arm, angle)
+        if part.still is None or not begin <= part.still < begin + seconds:
+            return shot
+        return replace(shot, plate=part.plate, moment=part.still - begin)
 
     def _index(self, time: float) -> int:
         return min(max(round((time - self._start) / _WATCHED), 0), len(self._scenes) - 1)

@@ -83,7 +83,7 @@ fn in_formation(situation: &Situation, leader: Option<&Sighting>, temper: &Tempe
         pace += HURRY * length * (behind * to_leader.z).clamp(0.0, 4.0);
     }
     let along = middle.z / length;
-    let speed = pace / length + 0.5 * (along + gaps.z).clamp(-1.0, 1.5);
+    let speed = pace / length + (along + gaps.z).clamp(-1.0, 1.5);
     let speed = speed.clamp(0.3 * temper.cruise_speed, temper.full_speed);
     let overtakes = along < -0.8 && situation.own_speed() > 1.2 * pace;
     Command {
