@@ -109,8 +109,8 @@ fn who_bites_first_is_hooked_hauled_by_the_mouth_and_landed() {
             let hook = place(&world, "fishing_line").unwrap().0;
             let ahead = (hook - fish.position).dot(fish.rotation() * Vec3::Z);
             let aside = hook - fish.position - fish.rotation() * Vec3::Z * ahead;
-            // The fish goes where the hook was heading a tick ago: a tug moves it by some millimetres since.
-            assert!(aside.length() < 0.012, "{} m beside the mouth", aside.length());
+            // The fish goes where the hook was heading a tick ago, and who struggles bends its snout aside.
+            assert!(aside.length() < 0.06 * length, "{} m beside the mouth", aside.length());
             assert!(ahead > 0.3 * length, "{ahead} m before the middle");
         }
         events.append(&mut run(&mut world, 6.0));
