@@ -76,7 +76,7 @@ def direct(story: Story) -> list[Shot]:
     fled = story.nearest(shark, prey, last + 3.0)[0]
     parts = [
         Part(3.5, story.nearest(prey[2], prey, 2.0)[:2], plate="fleeing_school", still=2.5),
-        Part(hunt - 4.0, [grazer, neighbor], plate="peaceful_world", still=6.5),
+        Part(hunt - 4.0, [grazer, neighbor], plate="peaceful_world", still=hunt - 4.5),
         Part(hunt, [shark], field_of_view=42.0),
     ]
     for kill, plate in zip(kills, ("predator_chase", ""), strict=False):
