@@ -62,5 +62,5 @@ def _place_cameras(bay: bio.World) -> None:
     cameras.fixed("pillar", position=(-0.8, -4.5, 2.1), target=(0.25, -4.05, 0.0), field_of_view=48)
     cameras.fixed("beyond", position=(-3.4, -4.5, 1.6), target=(0.0, -4.1, -0.2), field_of_view=44)
     cameras.follow("leader", species=_LEADER, offset=(2.4, 0.5, 3.2), field_of_view=46)
-    cameras.follow("member", species=_MEMBER, index=9, offset=(3.0, 0.4, 1.6), field_of_view=46)
+    cameras.follow("member", species=_MEMBER, index=9, offset=(6.0, 1.0, 3.0), field_of_view=46)
     bay.shots = [("bay", 8.0), ("leader", 7.0), ("pillar", 10.0), ("beyond", 7.0), ("member", 4.0)]
