@@ -39,9 +39,9 @@ class Cell:
 @pytest.fixture
 def cell():
     cell = Cell()
-    watch = Watch(small_world(), cell)
+    cell.watch = Watch(small_world(), cell)
     yield cell
-    watch.close()
+    cell.watch.close()
 
 
 def test_a_cell_gets_the_stream_once_it_has_joined(cell):
@@ -52,6 +52,19 @@ def test_a_cell_gets_the_stream_once_it_has_joined(cell):
     kinds = cell.kinds()
     assert kinds[0] == "hello"
     assert kinds.index("layout") < kinds.index("frame")
+
+
+def test_nothing_comes_before_the_greeting_of_a_slow_world(cell, monkeypatch):
+    greeting = cell.watch.session.greeting
+
+    def slow():
+        time.sleep(0.3)
+        return greeting()
+
+    monkeypatch.setattr(cell.watch.session, "greeting", slow)
+    cell.say(do="join", version=bio.__version__)
+    assert cell.until(lambda one: one["type"] == "frame")
+    assert cell.kinds()[0] == "hello"
 
 
 def test_a_cell_is_sent_no_more_than_it_shows(cell):

@@ -72,7 +72,7 @@ class Watch:
         self._view = view
         self._feed = Feed()
         self._joined = False
-        self._lock = threading.Lock()
+        self._lock = threading.RLock()
         self.session = Session(world, world.seed, self._from_session)
         view.on_msg(self._from_page)
         self.session.start()
@@ -87,11 +87,12 @@ class Watch:
             self._view.send({}, buffers=list(parts))
 
     def _from_session(self, message: bytes | None) -> None:
-        if not self._joined:
-            return
-        parts = self._feed.due(self.session.snapshot) if message is None else [message]
-        if parts:
-            self._send(*parts)
+        with self._lock:
+            if not self._joined:
+                return
+            parts = self._feed.due(self.session.snapshot) if message is None else [message]
+            if parts:
+                self._send(*parts)
 
     def _from_page(self, _view: Any, content: Any, _buffers: Any) -> None:
         import msgspec
@@ -103,9 +104,7 @@ class Watch:
             return
         match command:
             case messages.Join():
-                self._feed, self._joined = Feed(), True
-                session = self.session
-                self._send(*session.greeting(), *self._feed.due(session.snapshot))
+                self._join()
             case messages.Seen():
                 self._feed.seen()
             case messages.Select():
@@ -117,6 +116,13 @@ class Watch:
                 self.session.annotations = int(on)
             case _:
                 self.session.command(command, self._send)
+
+    def _join(self) -> None:
+        """Greet the page before the session's thread can send it anything else."""
+        with self._lock:
+            self._feed, self._joined = Feed(), True
+            session = self.session
+            self._send(*session.greeting(), *self._feed.due(session.snapshot))
 
     def _inspect(self) -> None:
         while not self.session.closed:
