@@ -193,7 +193,7 @@ def test_a_higher_libido_brings_them_together_earlier():
     assert 20 < first(0.01) < 40, "when its libido is above 0.3"
 
 
-@pytest.mark.capability("TF-206", "AA-012")
+@pytest.mark.capability("TF-206")
 def test_the_published_scene_is_measured_and_runs_hundreds_of_times_as_fast(bioscope):
     """10 fishes, 15 morsels and 4 cylinders ran at 4 frames per second in 1996.
 
