@@ -67,6 +67,14 @@ def page(one_page):
     assert one_page.errors == []
 
 
+def within(condition, seconds=30):
+    """Wait until a condition holds; fail if it does not in time."""
+    deadline = time.monotonic() + seconds
+    while not condition():
+        assert time.monotonic() < deadline
+        time.sleep(0.2)
+
+
 def open_panel(page, name):
     page.mouse.move(300, 230)
     page.evaluate(f"document.querySelector('.bio-dock [data-panel={name}]').click()")
@@ -176,10 +184,7 @@ def test_a_fish_is_dragged_on_the_map(page):
         )
         time.sleep(0.2)
     page.mouse.up()
-    deadline = time.monotonic() + 30
-    while np.allclose(places()[chosen], before, atol=0.02) and time.monotonic() < deadline:
-        time.sleep(0.3)
-    assert np.hypot(*(places()[chosen] - before)[[0, 2]]) > 0.05
+    within(lambda: np.hypot(*(places()[chosen] - before)[[0, 2]]) > 0.05)
     with page.expect_download() as download:
         panel.get_by_role("button", name="save script").click()
     script = json.loads(download.value.path().read_text())
@@ -223,12 +228,12 @@ def test_the_chart_of_drives_is_that_of_the_world(page, pond):
     until(page, "window.bioscope.drives !== null && window.bioscope.drives[0] > 0.5")
     page.keyboard.press("Space")
     until(page, "!window.bioscope.running")
-    time.sleep(1.0)
-    now, *drives = page.evaluate("window.bioscope.drives")
     chosen = page.evaluate("window.bioscope.selected")
     alone = bio.load(str(pond), 5)
-    alone.step(round(now / alone.dt))
-    assert alone.time == pytest.approx(now)
+    alone.step(page.evaluate("window.bioscope.tick"))
+    now = pytest.approx(alone.time)
+    within(lambda: page.evaluate("window.bioscope.drives")[0] == now)
+    _, *drives = page.evaluate("window.bioscope.drives")
     index = [int(one) for one in alone._engine.values("fish", "id")].index(chosen)
     logged = [alone._engine.values("fish", name)[index] for name in ("hunger", "libido", "fear")]
     assert drives == pytest.approx(logged)
@@ -259,20 +264,19 @@ def test_the_fish_view_turns_shows_identities_and_keeps_views(page):
     ahead = page.evaluate("window.bioscope.retinaPixels()")
     slide(panel, "pan, to the left", 70)
     until(page, "document.querySelector('.bio-eye output').textContent.startsWith('70')")
-    deadline = time.monotonic() + 30
-    while page.evaluate("window.bioscope.retinaPixels()") == ahead and time.monotonic() < deadline:
-        time.sleep(0.3)
-    turned = page.evaluate("window.bioscope.retinaPixels()")
-    assert turned != ahead
+    within(lambda: page.evaluate("window.bioscope.retinaPixels()") != ahead)
     panel.get_by_role("button", name="identity").click()
-    colors = np.array(page.evaluate("window.bioscope.retinaPixels()")).reshape(-1, 4)
-    assert 1 <= len({tuple(one) for one in colors if tuple(one[:3]) != (8, 14, 20)}) < 20
+
+    def is_a_map():
+        colors = np.array(page.evaluate("window.bioscope.retinaPixels()")).reshape(-1, 4)
+        return 1 <= len({tuple(one) for one in colors if tuple(one[:3]) != (8, 14, 20)}) < 20
+
+    within(is_a_map)
     panel.get_by_role("button", name="both eyes").click()
     until(page, "document.querySelector('.bio-eye small').textContent.includes('left and right')")
     plain = picture(page)
     panel.get_by_role("button", name="labels").click()
-    time.sleep(1.0)
-    assert np.abs(picture(page) - plain).max() > 60
+    within(lambda: np.abs(picture(page) - plain).max() > 60)
     with page.expect_download() as download:
         panel.get_by_role("button", name="save view").click()
     saved = json.loads(download.value.path().read_text())
@@ -280,8 +284,8 @@ def test_the_fish_view_turns_shows_identities_and_keeps_views(page):
     with page.expect_file_chooser() as chooser:
         panel.get_by_role("button", name="load view").click()
     chooser.value.set_files(download.value.path())
-    time.sleep(1.5)
-    assert page.evaluate("window.bioscope.camera.position") == pytest.approx(saved["eye"], abs=0.05)
+    there = pytest.approx(saved["eye"], abs=0.05)
+    within(lambda: page.evaluate("window.bioscope.camera.position") == there)
     page.keyboard.press("Space")
 
 
