@@ -101,7 +101,7 @@ const LOOKAHEAD: f32 = 1.5;
 const ALONE: (f32, f32) = (0.15, 1.0);
 const LED: (f32, f32) = (0.3, 0.85);
 /// Rise of the back up to which nothing is bent to turn, and from which all: a bend turns about the back, so one that leans
-/// over or points up steeply would roll and somersault (choice; without, fishes lay on their sides for 5 % of a film).
+/// over or points up steeply would roll and somersault (choice; without, fishes leaned over for 5 to 13 % of a film).
 const UPRIGHT: [f32; 2] = [0.3, 0.9];
 /// Radians, and radians per time unit, within which a watched turn is done.
 const ARRIVED: [f32; 2] = [0.08, 0.03];
