@@ -166,7 +166,9 @@ impl Individual {
         }
         let changed = intention.behavior != record.intention.behavior;
         record.intention = intention;
-        record.bite = super::feeding::bite(record);
+        // What it bit in the tick before is still seen, but on its way down.
+        let swallowed = record.bite;
+        record.bite = super::feeding::bite(record).filter(|&one| Some(one) != swallowed);
         record.court();
         record.news = if changed { record.report(moment.time) } else { None };
         Ok(())
