@@ -2,10 +2,12 @@
 
 import importlib
 
+import numpy as np
 import pytest
 
 import bioscope as bio
 from bioscope.film.direction import Story
+from bioscope.film.ground import Ground
 from bioscope.film.operator import Operator
 
 FILMS = ["go_fish", "jack_cousto", "mating", "preying", "schooling"]
@@ -57,9 +59,12 @@ def test_a_story_in_which_nothing_happens_is_said_to_be_one(monkeypatch):
 
 def filmed(world, operator, until):
     """Return whom the film's picture shows at a time: identities by pixel."""
+    ground = Ground(world.scene)
     while world.time < until:
         world.step()
         camera, _ = operator.camera(world.time, world.dt)
+        place = np.array([camera.position], float)
+        assert place[0, 1] > ground.height(place)[0] + 0.1
     return bio.look(world.scene, camera, (160, 90)).identity
 
 

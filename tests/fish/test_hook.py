@@ -45,6 +45,8 @@ def test_the_first_mouth_at_the_hook_is_hauled_up_while_the_others_feed_on(seed)
     assert bites[0].object == hooked.subject, "the first mouth that reached the bait"
     bitten = [(one.subject, one.object) for one in events if one.kind == "bitten"]
     assert len(set(bitten)) == len(bitten), "a mouth closes once on a morsel"
+    eaten = {one.data["species"] for one in events if one.kind == "eaten"}
+    assert eaten == {"bait", "plankton"}, "it is told of what nobody can look up any more"
     rising = [height for time, height in heights[hooked.subject] if time > hooked.time + 1.5]
     assert all(above > below for below, above in itertools.pairwise(rising))
     assert rising[-1] > -0.4, "metres below the surface"

@@ -15,19 +15,20 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bioscope import _engine
+from bioscope.film.ground import Ground
 from bioscope.senses.eye import look_many
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
-    from bioscope._engine import Camera, Scene
+    from bioscope._engine import Scene
     from bioscope.world import Event, World
 
 _Point = NDArray[np.float64]
 
 _WATCHED = 0.25
 """World time between two moments that are kept of a trial run, seconds."""
-_MOMENTS = 5
+_MOMENTS = 9
 """Moments of a shot at which a point of view is tried."""
 _SKETCH = (80, 45)
 """Pixels of the pictures by which points of view are compared."""
@@ -40,8 +41,11 @@ _DISTANCES = (1.0, 1.35, 1.8)
 """In those at which all subjects just fill the picture."""
 _BEST, _UNSEEN = 0.07, 2e-4
 """Share of the picture that one subject best fills; share that is as good as not at all."""
-_DEPTH = 0.3
-"""Least depth of the lens, metres."""
+_DEPTH, _HEIGHT = 0.3, 0.25
+"""Least depth of the lens, and least height over the ground, metres."""
+_NEAR, _BLOCKED = 0.6, 8.0
+"""Share of the way to the subjects within which other things are in the way; by how much it counts
+how much of the picture they fill."""
 _LEAST = 0.15
 """Least reach of subjects, metres: who is smaller is not shown larger."""
 _ROOM = 0.6
@@ -102,6 +106,7 @@ class Story:
         self.species: dict[int, str] = {}
         self._start = world.time
         self._scenes: list[Scene] = []
+        self._ground = Ground(world.scene)
         while world.time - self._start < seconds:
             self._keep(world.scene)
             world.run(_WATCHED)
@@ -172,12 +177,41 @@ class Story:
             raise ValueError(f"nobody of {list(part.subjects)} is there {begin} s after the start")
         arms = list(_arms())
         wanted = [*part.subjects, *part.beyond]
-        scores = sum(_scores(scene, one, wanted, arms, angle) for scene, one in kept)
+        scores = sum(self._scores(scene, one, wanted, arms, angle) for scene, one in kept)
         arm = arms[int(np.argmax(scores))]
         shot = Shot(seconds, "", tuple(part.subjects), arm, angle)
         if part.still is None or not begin <= part.still < begin + seconds:
             return shot
         return replace(shot, plate=part.plate, moment=part.still - begin)
+
+    def _scores(
+        self,
+        scene: Scene,
+        framed: tuple[_Point, float],
+        subjects: Sequence[int],
+        arms: Sequence[tuple[float, float, float]],
+        angle: float,
+    ) -> NDArray[np.float64]:
+        """Return how well subjects are seen from the end of each arm: the higher the better."""
+        middle, reach = framed
+        places = np.array([lens(middle, reach, arm, angle) for arm in arms])
+        cameras = [
+            _engine.Camera.looking_at(one, middle.tolist(), angle) for one in places.tolist()
+        ]
+        views = look_many(scene, cameras, _SKETCH)
+        known = list(_places(scene, subjects))
+        filled = [[(one.identity == subject).mean() for subject in known] for one in views]
+        seen = np.array(filled) + _UNSEEN
+        scores = np.asarray(np.log(np.minimum(seen, _BEST**2 / seen)).mean(axis=1), float)
+        ways = _NEAR * np.linalg.norm(places - middle, axis=1)
+        for index, (view, way) in enumerate(zip(views, ways, strict=True)):
+            in_the_way = (view.depth < way) & ~np.isin(view.identity, known)
+            scores[index] -= _BLOCKED * in_the_way.mean()
+        surface = scene.medium["surface"]
+        if surface is not None:
+            scores[places[:, 1] > surface - _DEPTH] = -np.inf
+        scores[places[:, 1] < self._ground.height(places) + _HEIGHT] = -np.inf
+        return scores
 
     def _index(self, time: float) -> int:
         return min(max(round((time - self._start) / _WATCHED), 0), len(self._scenes) - 1)
@@ -225,28 +259,3 @@ def _arms() -> Iterator[tuple[float, float, float]]:
         for share in _DISTANCES:
             for height in _HEIGHTS:
                 yield share * math.sin(bearing), share * height, share * math.cos(bearing)
-
-
-def _scores(
-    scene: Scene,
-    framed: tuple[_Point, float],
-    subjects: Sequence[int],
-    arms: Sequence[tuple[float, float, float]],
-    angle: float,
-) -> NDArray[np.float64]:
-    """Return how well subjects are seen from the end of each arm: the higher the better."""
-    middle, reach = framed
-    places = [lens(middle, reach, arm, angle) for arm in arms]
-    cameras = [_engine.Camera.looking_at(one.tolist(), middle.tolist(), angle) for one in places]
-    seen = shown(scene, cameras, list(_places(scene, subjects))) + _UNSEEN
-    scores = np.asarray(np.log(np.minimum(seen, _BEST**2 / seen)).mean(axis=1), float)
-    surface = scene.medium["surface"]
-    if surface is not None:
-        scores[[place[1] > surface - _DEPTH for place in places]] = -np.inf
-    return scores
-
-
-def shown(scene: Scene, cameras: Sequence[Camera], subjects: Sequence[int]) -> NDArray[np.float64]:
-    """Return the share of each camera's picture that each subject fills."""
-    views = look_many(scene, cameras, _SKETCH)
-    return np.array([[(one.identity == subject).mean() for subject in subjects] for one in views])

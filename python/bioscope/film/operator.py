@@ -10,6 +10,7 @@ import numpy as np
 from bioscope import _engine
 from bioscope.errors import UnknownNameError
 from bioscope.film.direction import Shot
+from bioscope.film.ground import Ground
 from bioscope.film.steady import Beside, Steady
 
 if TYPE_CHECKING:
@@ -49,6 +50,7 @@ class Operator:
         else:
             listed = world.shots or [(name, _SECONDS_PER_SHOT) for name in names]
             self._shots = [Shot(seconds, name) for name, seconds in listed]
+        self._ground = Ground(world.scene)
         self._previous: Camera | None = None
         self._hands: Beside | Steady | None = None
         self._shot = -1
@@ -65,6 +67,8 @@ class Operator:
         if found is None and self._hands is not None:
             found = self._hands.camera(self._world.scene, dt)
         camera = found or self._previous or overview(self._world)
+        if self._hands is not None:
+            camera = self._ground.above(camera)
         self._shot, self._previous = number, camera
         return camera, cut
 

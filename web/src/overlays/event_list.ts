@@ -37,6 +37,8 @@ export class EventList implements Panel {
     });
     session.on("layout", ({ batches }) => this.remember(batches));
     session.on("events", ({ events }) => {
+      for (const { subject, data } of events)
+        if (typeof data.species === "string") this.species.set(subject, data.species.replaceAll("_", " "));
       this.events.push(...events);
       this.events.splice(0, Math.max(0, this.events.length - MOST));
       this.stale = true;
@@ -84,7 +86,9 @@ export class EventList implements Panel {
 
   private row(event: WorldEvent): HTMLElement {
     const { kind, subject, object, data } = event;
-    const details = Object.entries(data).map(([name, value]) => `${name} ${formatValue(name, value).text}`);
+    const details = Object.entries(data)
+      .filter(([name]) => name !== "species")
+      .map(([name, value]) => `${name} ${formatValue(name, value).text}`);
     const line = element(
       "li",
       {},

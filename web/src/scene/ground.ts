@@ -1,48 +1,104 @@
+import type { BatchLayout, MeshMessage } from "../messages/types";
 import type { Batch } from "./batch";
 
-/** Cells along each side of the map. */
-const CELLS = 96;
+/** Points along each side of the map. */
+const POINTS = 192;
+/** Reach from which the ground is one, metres. */
+const LEAST = 3;
+/** By how much triangles overlap, so that no point falls between two. */
+const EDGE = 1e-3;
 
-/** How high the ground is: a coarse map of the highest points of all that is not alive and broad. */
+/** Places of corners and the triangles between them. */
+type Mesh = Pick<MeshMessage, "positions" | "triangles">;
+
+/** How high the ground is, of however many tiles: a map of points between which it slopes evenly. */
 export class Ground {
-  private readonly heights = new Float32Array(CELLS * CELLS).fill(-Infinity);
+  private readonly heights = new Float32Array(POINTS * POINTS).fill(-Infinity);
   private origin = [0, 0];
   private spacing = [1, 1];
-  private measured: Batch | null = null;
+  private measured: Mesh[] = [];
 
-  /** Measures the broadest lifeless thing. */
+  /** Measures all that was built where it stands, in metres of the world, and is not alive. */
   measure(batches: Iterable<Batch>): void {
-    let broadest: Batch | null = null;
-    for (const batch of batches) {
-      if (batch.layout.alive || batch.layout.count !== 1) continue;
-      if (!broadest || batch.asset.radius > broadest.asset.radius) broadest = batch;
-    }
-    if (broadest === this.measured) return;
-    this.measured = broadest;
+    const tiles = [...batches].filter(({ layout }) => isBuiltInPlace(layout));
+    this.take(tiles.map((batch) => batch.asset.message));
+  }
+
+  /** Measures meshes. */
+  take(tiles: Mesh[]): void {
+    const { measured } = this;
+    if (tiles.length === measured.length && tiles.every((one, index) => one === measured[index])) return;
+    this.measured = tiles;
     this.heights.fill(-Infinity);
-    if (broadest && broadest.asset.radius > 3) this.take(broadest);
+    const bounds = [Infinity, Infinity, -Infinity, -Infinity];
+    for (const { positions } of tiles)
+      for (let i = 0; i < positions.length; i += 3) {
+        bounds[0] = Math.min(bounds[0], positions[i]);
+        bounds[1] = Math.min(bounds[1], positions[i + 2]);
+        bounds[2] = Math.max(bounds[2], positions[i]);
+        bounds[3] = Math.max(bounds[3], positions[i + 2]);
+      }
+    const size = [bounds[2] - bounds[0], bounds[3] - bounds[1]];
+    if (!(Math.max(...size) > LEAST && Math.min(...size) > 0)) return;
+    this.origin = [bounds[0], bounds[1]];
+    this.spacing = size.map((side) => side / (POINTS - 1));
+    for (const tile of tiles) this.raise(tile);
   }
 
   /** Height of the ground in metres, −∞ where there is none. */
   heightAt(x: number, z: number): number {
-    const column = Math.floor((x - this.origin[0]) / this.spacing[0]);
-    const row = Math.floor((z - this.origin[1]) / this.spacing[1]);
-    if (column < 0 || row < 0 || column >= CELLS || row >= CELLS) return -Infinity;
-    return this.heights[row * CELLS + column];
+    const across = (x - this.origin[0]) / this.spacing[0];
+    const along = (z - this.origin[1]) / this.spacing[1];
+    if (!(across >= 0 && along >= 0 && across <= POINTS - 1 && along <= POINTS - 1)) return -Infinity;
+    const column = Math.min(POINTS - 2, Math.floor(across));
+    const row = Math.min(POINTS - 2, Math.floor(along));
+    const [u, v] = [across - column, along - row];
+    const corner = row * POINTS + column;
+    const [near, far] = [corner, corner + POINTS].map((at) =>
+      between(this.heights[at], this.heights[at + 1], u),
+    );
+    return between(near, far, v);
   }
 
-  private take(batch: Batch): void {
-    const { box, message } = batch.asset;
-    const place = batch.placeOf(0);
-    const scale = place[3];
-    this.origin = [place[0] + box[0] * scale, place[2] + box[2] * scale];
-    this.spacing = [((box[3] - box[0]) * scale) / CELLS, ((box[5] - box[2]) * scale) / CELLS];
-    const { positions } = message;
-    for (let i = 0; i < positions.length; i += 3) {
-      const column = Math.min(CELLS - 1, Math.floor(((positions[i] - box[0]) * scale) / this.spacing[0]));
-      const row = Math.min(CELLS - 1, Math.floor(((positions[i + 2] - box[2]) * scale) / this.spacing[1]));
-      const at = row * CELLS + column;
-      this.heights[at] = Math.max(this.heights[at], place[1] + positions[i + 1] * scale);
-    }
+  /** Raises the points under a mesh to its height. */
+  private raise({ positions, triangles }: Mesh): void {
+    const at = (corner: number) => [
+      (positions[3 * corner] - this.origin[0]) / this.spacing[0],
+      positions[3 * corner + 1],
+      (positions[3 * corner + 2] - this.origin[1]) / this.spacing[1],
+    ];
+    for (let i = 0; i < triangles.length; i += 3)
+      this.raiseUnder(at(triangles[i]), at(triangles[i + 1]), at(triangles[i + 2]));
   }
+
+  /** Raises the points under a triangle, whose x and z count in points of the map. */
+  private raiseUnder(a: number[], b: number[], c: number[]): void {
+    const area = (b[0] - a[0]) * (c[2] - a[2]) - (c[0] - a[0]) * (b[2] - a[2]);
+    if (area === 0) return;
+    const first = (axis: number) => Math.max(0, Math.ceil(Math.min(a[axis], b[axis], c[axis]) - EDGE));
+    const last = (axis: number) =>
+      Math.min(POINTS - 1, Math.floor(Math.max(a[axis], b[axis], c[axis]) + EDGE));
+    for (let row = first(2); row <= last(2); row++)
+      for (let column = first(0); column <= last(0); column++) {
+        const shareB = ((column - a[0]) * (c[2] - a[2]) - (c[0] - a[0]) * (row - a[2])) / area;
+        const shareC = ((b[0] - a[0]) * (row - a[2]) - (column - a[0]) * (b[2] - a[2])) / area;
+        if (Math.min(shareB, shareC, 1 - shareB - shareC) < -EDGE) continue;
+        const height = a[1] + shareB * (b[1] - a[1]) + shareC * (c[1] - a[1]);
+        const point = row * POINTS + column;
+        this.heights[point] = Math.max(this.heights[point], height);
+      }
+  }
+}
+
+/** Whether a thing was built where it stands, as the ground is: its corners are places in the world. */
+export function isBuiltInPlace({ alive, count, joints, transforms }: BatchLayout): boolean {
+  if (alive || count !== 1 || joints > 0) return false;
+  const [x, y, z, scale, qx, qy, qz] = transforms;
+  return scale === 1 && [x, y, z, qx, qy, qz].every((one) => one === 0);
+}
+
+/** A height between two; where one is missing, the other. */
+function between(one: number, other: number, share: number): number {
+  if (one === -Infinity || other === -Infinity) return Math.max(one, other);
+  return one + (other - one) * share;
 }

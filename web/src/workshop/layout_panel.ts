@@ -1,7 +1,9 @@
 import { colorOfSpecies } from "../colors";
 import type { Session } from "../messages/session";
+import type { BatchLayout } from "../messages/types";
 import { download, element, nameOf } from "../overlays/dom";
 import type { Panel } from "../overlays/panels";
+import { isBuiltInPlace } from "../scene/ground";
 import type { Stage } from "../scene/stage";
 import { drawMap, nearest, type Section, type Spot, sectionOf, spotsOf, toPicture, toWorld } from "./map";
 import type { Residents } from "./residents";
@@ -105,12 +107,14 @@ export class LayoutPanel implements Panel {
   /** Draws what has moved. */
   refresh(): void {
     if (!this.canvas.offsetParent) return;
-    const spots = spotsOf(this.stage, (species) => this.residents.can(species, "place"));
+    const canMove = ({ species }: BatchLayout) => this.residents.can(species, "place");
+    const spots = spotsOf(this.stage, canMove);
+    const standing = spotsOf(this.stage, (layout) => !canMove(layout) && !isBuiltInPlace(layout));
     const { dragged } = this;
     this.spots = spots.map((spot) => (spot.id === dragged?.id ? dragged : spot));
     this.section ??= sectionOf(this.spots);
     const context = this.canvas.getContext("2d");
-    if (context) drawMap(context, this.spots, this.section, SIZE, this.hooks.selected());
+    if (context) drawMap(context, this.spots, standing, this.section, SIZE, this.hooks.selected());
     const one = this.chosen();
     const text = one
       ? `${nameOf(one.species, one.id)} at ${[one.x, one.y, one.z].map((axis) => axis.toFixed(2)).join(", ")} m`

@@ -1,4 +1,5 @@
 import { colorOfSpecies } from "../colors";
+import type { BatchLayout } from "../messages/types";
 import type { Stage } from "../scene/stage";
 
 /** One thing on the map. */
@@ -21,9 +22,9 @@ export interface Section {
   half: number;
 }
 
-/** All that could be moved, as `can` says of its species. */
-export function spotsOf(stage: Stage, can: (species: string) => boolean): Spot[] {
-  const batches = [...stage.batches.values()].filter((batch) => can(batch.layout.species));
+/** All individuals of the batches that are wanted. */
+export function spotsOf(stage: Stage, wanted: (layout: BatchLayout) => boolean): Spot[] {
+  const batches = [...stage.batches.values()].filter((batch) => wanted(batch.layout));
   return batches.flatMap((batch) =>
     [...batch.layout.ids].map((id, slot) => {
       const [x, y, z, scale] = batch.placeOf(slot);
@@ -81,10 +82,11 @@ export function nearest(
   return best;
 }
 
-/** Draws a map: a net of metres, everything on it, and what is selected. */
+/** Draws a map: a net of metres, what stands there, everything that can be moved, and what is selected. */
 export function drawMap(
   context: CanvasRenderingContext2D,
   spots: readonly Spot[],
+  standing: readonly Spot[],
   section: Section,
   size: number,
   selected: number,
@@ -92,6 +94,15 @@ export function drawMap(
   context.clearRect(0, 0, size, size);
   drawNet(context, section, size);
   const pixels = size / (2 * section.half);
+  context.fillStyle = "#8fa9b433";
+  context.beginPath();
+  for (const spot of standing) {
+    const [x, y] = toPicture(spot, section, size);
+    const radius = Math.max(1, spot.radius * pixels);
+    context.moveTo(x + radius, y);
+    context.arc(x, y, radius, 0, 2 * Math.PI);
+  }
+  context.fill();
   for (const spot of spots) {
     const [x, y] = toPicture(spot, section, size);
     const radius = Math.min(9, Math.max(2, 0.5 * spot.radius * pixels));

@@ -123,11 +123,12 @@ export class PhysicsPanel implements Panel {
     }
     const stride = new Slider({
       label: "ticks per picture",
-      meaning: "how many ticks are made from one picture to the next; 0: as many pictures as can be",
+      meaning: "how many ticks are made from one picture to the next; smooth: as many pictures as can be",
       min: 0,
       max: 60,
       step: 1,
       value: this.residents.stride ?? 0,
+      say: (ticks) => (ticks === 0 ? "smooth" : String(ticks)),
       change: (ticks) => this.session.send({ do: "display", ticks: ticks === 0 ? null : ticks }),
     });
     this.updates.push(() => stride.show(this.residents.stride ?? 0));

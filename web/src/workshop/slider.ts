@@ -9,6 +9,8 @@ export interface SliderOptions {
   max: number;
   step?: number;
   value: number;
+  /** What the number is called; itself with its unit if not given. */
+  say?(value: number): string;
   /** Called with what the person has chosen. */
   change(value: number): void;
 }
@@ -18,11 +20,12 @@ export class Slider {
   readonly element;
   private readonly input;
   private readonly number = element("output");
-  private readonly unit: string;
+  private readonly words: (value: number) => string;
   private held = false;
 
-  constructor({ label, unit = "", meaning = "", min, max, step, value, change }: SliderOptions) {
-    this.unit = unit && unit !== "1" ? ` ${unit}` : "";
+  constructor({ label, unit = "", meaning = "", min, max, step, value, say, change }: SliderOptions) {
+    const suffix = unit && unit !== "1" ? ` ${unit}` : "";
+    this.words = say ?? ((value) => `${Number(value.toPrecision(3))}${suffix}`);
     this.input = element("input", {
       type: "range",
       min: String(min),
@@ -63,7 +66,7 @@ export class Slider {
   }
 
   private say(value: number): void {
-    const text = `${Number(value.toPrecision(3))}${this.unit}`;
+    const text = this.words(value);
     if (this.number.textContent !== text) this.number.textContent = text;
   }
 }

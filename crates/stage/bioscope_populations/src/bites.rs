@@ -6,6 +6,7 @@
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use bioscope_core::{Event, Id, Value, Vec3};
 use bioscope_world::Moment;
@@ -21,24 +22,31 @@ pub const CAUGHT: &str = "caught";
 pub const HOOKED: &str = "hooked";
 
 /// One who is gone, and into whom.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) struct Gone {
     pub who: Id,
     pub into: Id,
+    /// Of which species it was: nobody can look that up any more.
+    pub species: Arc<str>,
 }
 
 impl Gone {
     /// The event that tells of it; `kind` is [`EATEN`] or [`CAUGHT`].
-    pub fn event(self, kind: &'static str, moment: &Moment) -> Event {
+    pub fn event(&self, kind: &'static str, moment: &Moment) -> Event {
         Event {
             tick: moment.tick,
             time: moment.time,
             kind: Cow::Borrowed(kind),
             subject: self.who,
             object: Some(self.into),
-            data: BTreeMap::new(),
+            data: of_species(&self.species),
         }
     }
+}
+
+/// What an event tells of one who is gone.
+pub(crate) fn of_species(species: &str) -> BTreeMap<String, Value> {
+    BTreeMap::from([(String::from("species"), species.into())])
 }
 
 /// Who was bitten in the last tick, and by whom first.
@@ -93,7 +101,9 @@ mod tests {
         fn decide(&mut self, view: &View) -> Result<()> {
             let batches = view.scene.batches.iter().filter_map(|one| one.ids.first());
             let points = view.scene.points.iter().filter_map(|one| one.ids.first());
-            let bite = |&who: &Id| self.ids.iter().map(move |&into| Gone { who, into });
+            let bite = |&who: &Id| {
+                self.ids.iter().map(move |&into| Gone { who, into, species: Arc::from("") })
+            };
             self.bites = batches.chain(points).flat_map(bite).collect();
             Ok(())
         }

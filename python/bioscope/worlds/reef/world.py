@@ -70,5 +70,5 @@ def _place_cameras(reef: bio.World) -> None:
     cameras.follow("school", species="fusilier", index=20, offset=(4.5, 0.8, 4.0), field_of_view=46)
     cameras.follow("shark", species="grey_reef_shark", offset=(1.1, 0.25, 0.9), field_of_view=44)
     cameras.orbit("round", target=(0.3, -4.6, -0.8), radius=5.6, height=0.8, period=80)
-    cameras.fixed("upward", position=(1.5, -6.0, 2.2), target=(0.2, -2.2, -0.6), field_of_view=62)
+    cameras.fixed("upward", position=(1.5, -5.3, 2.2), target=(0.2, -2.2, -0.6), field_of_view=62)
     reef.shots = [("garden", 3.5), ("school", 3.0), ("shark", 3.5), ("upward", 3.5), ("round", 6.0)]

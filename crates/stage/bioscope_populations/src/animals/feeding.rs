@@ -107,7 +107,11 @@ pub(super) fn be_caught(individuals: &mut Vec<Individual>, events: &[Event]) -> 
     let mut caught = Vec::new();
     individuals.retain(|one| {
         let biter = biters.get(&one.id);
-        caught.extend(biter.map(|&into| Gone { who: one.id, into }));
+        caught.extend(biter.map(|&into| Gone {
+            who: one.id,
+            into,
+            species: one.parts.look.species.clone(),
+        }));
         biter.is_none()
     });
     caught

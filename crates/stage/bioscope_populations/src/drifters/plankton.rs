@@ -148,7 +148,11 @@ impl Plankton {
         for drifter in &mut self.state.drifters {
             if let Some(&into) = biters.get(&drifter.id) {
                 drifter.gone = true;
-                self.state.eaten.push(Gone { who: drifter.id, into });
+                self.state.eaten.push(Gone {
+                    who: drifter.id,
+                    into,
+                    species: self.state.options.species.clone(),
+                });
             }
         }
     }

@@ -10,7 +10,7 @@ use bioscope_world::{Growth, Moment, Population, Publication, View};
 use serde::{Deserialize, Serialize};
 
 use super::tackle;
-use crate::bites::{BITTEN, EATEN, HOOKED, bitten};
+use crate::bites::{BITTEN, EATEN, HOOKED, bitten, of_species};
 use crate::kept::{parameters_in, saved_as_state};
 use crate::names::free_name;
 
@@ -246,7 +246,8 @@ impl Population for FishingLine {
         };
         match news {
             News::Hooked => {
-                events.push(state.event(EATEN, state.bait, catch, moment));
+                let data = of_species(&state.options.bait);
+                events.push(Event { data, ..state.event(EATEN, state.bait, catch, moment) });
                 events.push(state.event(HOOKED, catch, state.hook, moment));
             }
             News::Landed => {

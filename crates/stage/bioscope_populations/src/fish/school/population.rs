@@ -318,7 +318,11 @@ impl Population for FishSchool {
         for (who, into) in bitten(growth.events) {
             if self.flock.ids().contains(&who) {
                 self.let_go(who);
-                self.caught.push(Gone { who, into });
+                self.caught.push(Gone {
+                    who,
+                    into,
+                    species: self.options.species.name.as_str().into(),
+                });
             }
         }
         Ok(())
