@@ -93,3 +93,16 @@ def test_the_guide_to_growing_plants_runs_as_written():
         exec(compile(block, "grow-plants.md", "exec"), names)
     assert names["world"].populations["trees"] >= 10
     assert names["world"].statistics()["trees.segments"] > 100
+
+
+def test_events_that_happen_are_on_their_page():
+    page = (ROOT / "docs/reference/events.md").read_text(encoding="utf-8")
+    rows = [line.split("|") for line in page.splitlines() if line.startswith("| `")]
+    known = {kind: row[4] for row in rows for kind in re.findall(r"`(.*?)`", row[1])}
+    assert len(known) >= 18
+    for name, seconds in [("go_fish", 24), ("reef", 20)]:
+        world = bioscope.load(name, seed=4)
+        world.run(seconds)
+        for event in world.drain_events():
+            assert event.kind in known
+            assert all(f"`{one}`" in known[event.kind] for one in event.data), event
