@@ -50,6 +50,8 @@ _LEAST = 0.15
 """Least reach of subjects, metres: who is smaller is not shown larger."""
 _ROOM = 0.6
 """Body lengths round the middle of a subject that are to be in the picture."""
+_SNOUT = 0.55
+"""From the middle of a subject to just before its snout, body lengths."""
 _WIDE = np.array([0.6, 1.0, 0.6])
 """Pictures are wider than high: how far subjects reach on the level counts less."""
 
@@ -71,6 +73,8 @@ class Shot:
     """Name of the still that is worth taking of it; none if empty."""
     moment: float = 0.0
     """When the still is taken, seconds from the shot's beginning."""
+    eyes: bool = False
+    """Whether it shows what the one subject has before its eyes."""
 
 
 @dataclass(frozen=True)
@@ -88,6 +92,8 @@ class Part:
     plate: str = ""
     still: float | None = None
     """World time at which the still is taken, seconds."""
+    eyes: bool = False
+    """Whether it is seen through the eyes of the one subject."""
 
 
 class Story:
@@ -169,6 +175,8 @@ class Story:
     def _shot(self, begin: float, seconds: float, part: Part) -> Shot:
         """Return the shot of a part from where all its subjects are best seen."""
         angle = math.radians(part.field_of_view)
+        if part.eyes:
+            return Shot(seconds, "", tuple(part.subjects), field_of_view=angle, eyes=True)
         times = np.linspace(begin, begin + seconds, _MOMENTS)
         scenes = [self._scenes[self._index(time)] for time in times]
         framed = [(scene, frame(scene, part.subjects)) for scene in scenes]
@@ -238,6 +246,18 @@ def frame(scene: Scene, subjects: Sequence[int]) -> tuple[_Point, float] | None:
         float(np.linalg.norm((place - middle) * _WIDE)) + _ROOM * length for place, length in found
     )
     return middle, max(reach, _LEAST)
+
+
+def before_eyes(scene: Scene, subject: int) -> tuple[_Point, _Point] | None:
+    """Return the place just before the snout of a subject, metres, and where it heads."""
+    found = _places(scene, [subject]).get(subject)
+    if found is None:
+        return None
+    place, length = found
+    batch = next(one for one in scene.batches if subject in one.ids)
+    x, y, z, w = (float(one) for one in batch.rotations[np.flatnonzero(batch.ids == subject)[0]])
+    ahead = np.array([2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)])
+    return place + ahead * (_SNOUT * length), ahead
 
 
 def drift(scene: Scene, subjects: Sequence[int]) -> _Point:

@@ -11,7 +11,7 @@ from bioscope import _engine
 from bioscope.errors import UnknownNameError
 from bioscope.film.direction import Shot
 from bioscope.film.ground import Ground
-from bioscope.film.steady import Beside, Steady
+from bioscope.film.steady import Beside, Steady, Through
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -52,7 +52,7 @@ class Operator:
             self._shots = [Shot(seconds, name) for name, seconds in listed]
         self._ground = Ground(world.scene)
         self._previous: Camera | None = None
-        self._hands: Beside | Steady | None = None
+        self._hands: Beside | Steady | Through | None = None
         self._shot = -1
 
     def camera(self, seconds: float, dt: float) -> tuple[Camera, bool]:
@@ -61,7 +61,7 @@ class Operator:
         cut = number != self._shot
         found = None
         if cut and shot is not None and not shot.camera:
-            self._hands = Beside(shot)
+            self._hands = Through(shot) if shot.eyes else Beside(shot)
         elif cut or self._hands is None:
             found = self._rig(shot, cut, dt)
         if found is None and self._hands is not None:
@@ -117,7 +117,10 @@ class Operator:
         self._hands = None
         if hands is not None:
             shot = self._shots[self._shot % len(self._shots)]
-            self._hands = Steady.restored(hands) if shot.camera else Beside.restored(shot, hands)
+            if shot.camera:
+                self._hands = Steady.restored(hands)
+            else:
+                self._hands = (Through if shot.eyes else Beside).restored(shot, hands)
 
 
 def overview(world: World) -> Camera:

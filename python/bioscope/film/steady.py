@@ -1,4 +1,4 @@
-"""A camera in the hands of somebody who swims beside one animal, or beside several.
+"""A camera in the hands of somebody who swims beside one animal or several, or behind one's eyes.
 
 It goes with the animal and looks where it is going, late and loosely. It stays on the side on which
 it is: while the animal turns it does not swing round with it, but comes about slowly. Several are
@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bioscope import _engine
-from bioscope.film.direction import drift, frame, lens
+from bioscope.film.direction import before_eyes, drift, frame, lens
 
 if TYPE_CHECKING:
     from bioscope._engine import Camera, Scene
@@ -26,6 +26,10 @@ _LEAD = 0.1
 """How far ahead of the animal it looks, as a share of its distance."""
 _BESIDE_LAG, _REACH_LAG = 0.3, 0.9
 """Time constants of going with several and of coming nearer to them, seconds."""
+_OFF = 0.4
+"""Farthest from the middle of the picture that the middle of several may be, in their reaches."""
+_GAZE_LAG = 0.25
+"""Time constant of looking where an animal heads, through its eyes, seconds."""
 
 _Point = NDArray[np.float64]
 
@@ -135,6 +139,10 @@ class Beside:
             self._middle = guess + wrong * share
             self._velocity = self._velocity + wrong * (share**2 / (2.0 - share) / dt)
             self._reach += (reach - self._reach) * _share(dt, _REACH_LAG)
+            # Who stops short is not swum past.
+            off = self._middle - middle
+            far = float(np.linalg.norm(off)) / (_OFF * self._reach)
+            self._middle = middle + off / max(far, 1.0)
 
     def state(self) -> dict[str, Any]:
         """Return what is needed to go on later."""
@@ -149,6 +157,37 @@ class Beside:
             beside._middle = np.array(state["middle"])
         beside._velocity, beside._reach = np.array(state["velocity"]), state["reach"]
         return beside
+
+
+class Through:
+    """The camera of one shot through the eyes of an animal, which keeps its gaze while it beats."""
+
+    def __init__(self, shot: Shot) -> None:
+        self._shot = shot
+        self._place = self._gaze = np.zeros(3)
+
+    def camera(self, scene: Scene, dt: float) -> Camera | None:
+        """Return the camera `dt` seconds later; none as long as it was not there."""
+        found = before_eyes(scene, self._shot.subjects[0])
+        if found is not None:
+            self._place, ahead = found
+            share = _share(dt, _GAZE_LAG) if self._gaze.any() else 1.0
+            self._gaze = self._gaze + (ahead - self._gaze) * share
+        if not self._gaze.any():
+            return None
+        aim = (self._place + self._gaze).tolist()
+        return _engine.Camera.looking_at(self._place.tolist(), aim, self._shot.field_of_view)
+
+    def state(self) -> dict[str, Any]:
+        """Return what is needed to go on later."""
+        return {"place": self._place.tolist(), "gaze": self._gaze.tolist()}
+
+    @classmethod
+    def restored(cls, shot: Shot, state: dict[str, Any]) -> Through:
+        """Go on from where `state` was taken."""
+        through = cls(shot)
+        through._place, through._gaze = np.array(state["place"]), np.array(state["gaze"])
+        return through
 
 
 def _share(dt: float, lag: float) -> float:

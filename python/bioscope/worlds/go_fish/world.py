@@ -66,11 +66,15 @@ def direct(story: Story) -> list[Shot]:
     def feeding(until: float) -> Part:
         return Part(until, [tangs[0], *story.nearest(tangs[0], tangs, until - 2.0, within=0.6)])
 
-    waiting = [feeding(4.5), Part(9.5, [caught]), Part(13.5, [worm]), feeding(18.0)]
+    def through(eyes: int, until: float) -> Part:
+        return Part(until, [eyes], field_of_view=62.0, eyes=True)
+
+    waiting = [feeding(3.5), Part(6.5, [caught]), through(tangs[1], 9.5), Part(13.5, [worm])]
     return story.sequence(
-        [one for one in waiting if one.end < bite.time - 2.5]
+        [one for one in waiting if one.end < bite.time - 5.0]
         + [
-            Part(bite.time - 2.5, [worm, *story.nearest(worm, angelfishes, bite.time - 4.0)]),
+            Part(bite.time - 3.2, [worm, *story.nearest(worm, angelfishes, bite.time - 4.0)]),
+            through(caught, bite.time - 1.2),
             Part(bite.time + 1.2, [worm, caught], plate="fishing_line", still=bite.time - 0.6),
             Part(landing.time + 0.3, [caught], plate="hooked_fish", still=bite.time + 2.0),
             feeding(landing.time + 4.5),
