@@ -34,10 +34,12 @@ _SKETCH = (80, 45)
 """Pixels of the pictures by which points of view are compared."""
 _SHORTEST, _LONGEST = 1.5, 12.0
 """Length of a shot that is worth a cut, and of one that is not yet too long, seconds."""
+_EDGE, _CUT = 3, 1.5
+"""Pixels of such a picture that are its edge; by how much it counts that a subject reaches it."""
 _BEARINGS = 12
 _HEIGHTS = (-0.15, 0.05, 0.3)
 """Of the lens over its subjects, as a share of its distance."""
-_DISTANCES = (1.0, 1.35, 1.8)
+_DISTANCES = (0.7, 1.0, 1.4)
 """In those at which all subjects just fill the picture."""
 _BEST, _UNSEEN = 0.07, 2e-4
 """Share of the picture that one subject best fills; share that is as good as not at all."""
@@ -215,6 +217,9 @@ class Story:
         for index, (view, way) in enumerate(zip(views, ways, strict=True)):
             in_the_way = (view.depth < way) & ~np.isin(view.identity, known)
             scores[index] -= _BLOCKED * in_the_way.mean()
+            inner = view.identity[_EDGE:-_EDGE, _EDGE:-_EDGE]
+            cut = np.isin(view.identity, known).sum() - np.isin(inner, known).sum()
+            scores[index] -= _CUT * (cut > 0)
         surface = scene.medium["surface"]
         if surface is not None:
             scores[places[:, 1] > surface - _DEPTH] = -np.inf

@@ -80,8 +80,12 @@ def direct(story: Story) -> list[Shot]:
         Part(hunt, [shark], field_of_view=42.0),
     ]
     for kill, plate in zip(kills, ("predator_chase", ""), strict=False):
-        still = kill.time - 0.8
-        parts.append(Part(kill.time + 1.2, [shark, kill.subject], plate=plate, still=still))
+        both, still = [shark, kill.subject], kill.time - 0.4
+        # The chase from afar, its end from near by.
+        parts += [
+            Part(kill.time - 1.6, both),
+            Part(kill.time + 1.2, both, plate=plate, still=still),
+        ]
     parts += [
         Part(last + 5.5, [fled, *story.nearest(fled, prey, last + 3.0, within=0.8)]),
         Part(last + 9.0, [grazer]),
