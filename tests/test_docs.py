@@ -106,3 +106,12 @@ def test_events_that_happen_are_on_their_page():
         for event in world.drain_events():
             assert event.kind in known
             assert all(f"`{one}`" in known[event.kind] for one in event.data), event
+
+
+def test_a_story_of_ones_own_is_filmed_as_written(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (source,) = (one for one in blocks("docs/start/film.md", "python") if "Story(" in one)
+    small = source.replace("seconds=seconds)", "seconds=1, size=(64, 36))")
+    assert small != source
+    exec(compile(small, "film.md", "exec"), {"bio": bioscope})
+    assert (tmp_path / "kill.mp4").stat().st_size > 1000
