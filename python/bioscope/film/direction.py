@@ -45,6 +45,8 @@ _BEST, _UNSEEN = 0.07, 2e-4
 """Share of the picture that one subject best fills; share that is as good as not at all."""
 _DEPTH, _HEIGHT = 0.3, 0.25
 """Least depth of the lens, and least height over the ground, metres."""
+_OUT = 50.0
+"""By how much it counts to be elsewhere."""
 _NEAR, _BLOCKED = 0.6, 8.0
 """Share of the way to the subjects within which other things are in the way; by how much it counts
 how much of the picture they fill."""
@@ -177,19 +179,18 @@ class Story:
     def _shot(self, begin: float, seconds: float, part: Part) -> Shot:
         """Return the shot of a part from where all its subjects are best seen."""
         angle = math.radians(part.field_of_view)
-        if part.eyes:
-            return Shot(seconds, "", tuple(part.subjects), field_of_view=angle, eyes=True)
         times = np.linspace(begin, begin + seconds, _MOMENTS)
         scenes = [self._scenes[self._index(time)] for time in times]
         framed = [(scene, frame(scene, part.subjects)) for scene in scenes]
         kept = [(scene, one) for scene, one in framed if one is not None]
         if not kept:
             raise ValueError(f"nobody of {list(part.subjects)} is there {begin} s after the start")
-        arms = list(_arms())
-        wanted = [*part.subjects, *part.beyond]
-        scores = sum(self._scores(scene, one, wanted, arms, angle) for scene, one in kept)
-        arm = arms[int(np.argmax(scores))]
-        shot = Shot(seconds, "", tuple(part.subjects), arm, angle)
+        shot = Shot(seconds, "", tuple(part.subjects), field_of_view=angle, eyes=part.eyes)
+        if not part.eyes:
+            arms = list(_arms())
+            wanted = [*part.subjects, *part.beyond]
+            scores = sum(self._scores(scene, one, wanted, arms, angle) for scene, one in kept)
+            shot = replace(shot, arm=arms[int(np.argmax(scores))])
         if part.still is None or not begin <= part.still < begin + seconds:
             return shot
         return replace(shot, plate=part.plate, moment=part.still - begin)
@@ -222,8 +223,8 @@ class Story:
             scores[index] -= _CUT * (cut > 0)
         surface = scene.medium["surface"]
         if surface is not None:
-            scores[places[:, 1] > surface - _DEPTH] = -np.inf
-        scores[places[:, 1] < self._ground.height(places) + _HEIGHT] = -np.inf
+            scores[places[:, 1] > surface - _DEPTH] -= _OUT
+        scores[places[:, 1] < self._ground.height(places) + _HEIGHT] -= _OUT
         return scores
 
     def _index(self, time: float) -> int:
