@@ -11,6 +11,9 @@ from bioscope.film.ground import Ground
 class Hill(bio.Population):
     """A slope from 0 m at x = -4 to 4 m at x = 4, built where it is."""
 
+    def __init__(self, size=4.0, faces=1, rise=0.5):
+        self.size, self.faces, self.rise = size, faces, rise
+
     def settle(self):
         return 1
 
@@ -18,12 +21,13 @@ class Hill(bio.Population):
         self.ids = ids
 
     def publish(self, scene):
-        x, z = np.meshgrid(np.linspace(-4, 4, 33), np.linspace(-4, 4, 33), indexing="ij")
-        corners = np.stack([x, 0.5 * x + 2.0, z], axis=-1).reshape(-1, 3)
+        x, z = np.meshgrid(*2 * [np.linspace(-1, 1, 33) * self.size], indexing="ij")
+        corners = np.stack([x, self.rise * x + 2.0, z], axis=-1).reshape(-1, 3)
         first = np.arange(32 * 33).reshape(32, 33)[:, :-1].ravel()
         pairs = np.stack([first, first + 1, first + 33, first + 33, first + 1, first + 34], axis=-1)
         mesh = bio.Mesh(
-            positions=corners.astype(np.float32), triangles=pairs.reshape(-1, 3).astype(np.uint32)
+            positions=corners.astype(np.float32),
+            triangles=pairs.reshape(-1, 3)[:, :: self.faces].astype(np.uint32),
         )
         here = np.zeros((1, 3), np.float32)
         scene.instances("hill", mesh, bio.Material(), ids=self.ids, positions=here, alive=False)
@@ -44,6 +48,14 @@ def test_the_ground_is_as_high_as_what_is_near_and_nowhere_beyond(hill):
     assert (heights >= 0.5 * x + 2.0 - 1e-4).all()
     assert (heights < 0.5 * x + 2.0 + 0.45).all()
     assert ground.height(np.array([[9.0, 0.0, 0.0], [0.0, 0.0, -9.0]])).tolist() == [-np.inf] * 2
+
+
+@pytest.mark.parametrize("build", [{"size": 4e4}, {"faces": -1}, {"rise": 40.0}])
+def test_what_is_endless_or_faces_down_or_is_a_wall_is_no_ground(build):
+    world = bio.World(seed=1)
+    world.add(Hill(**build))
+    world.step()
+    assert Ground(world.scene).height(np.zeros((1, 3))).tolist() == [-np.inf]
 
 
 def test_a_world_without_ground_has_none():

@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import { Ground } from "../src/scene/ground";
+import { facesUp, Ground } from "../src/scene/ground";
 
 /** A square tile of side 10 from a corner, which rises by `slope` per metre of x. */
 function tile(x: number, z: number, slope: number) {
@@ -11,7 +11,7 @@ function tile(x: number, z: number, slope: number) {
   ];
   return {
     positions: Float32Array.from(corners.flatMap(([east, south]) => [east, slope * east - 5, south])),
-    triangles: Uint32Array.from([0, 1, 2, 0, 2, 3]),
+    triangles: Uint32Array.from([0, 2, 1, 0, 3, 2]),
   };
 }
 
@@ -49,4 +49,19 @@ test("what is narrow or flat as a line is no ground", () => {
   };
   ground.take([line]);
   expect(ground.heightAt(4, 0)).toBe(-Infinity);
+});
+
+test("sheets seen from above are ground, walls and bodies are not", () => {
+  const sheet = tile(0, 0, 0.5);
+  expect(facesUp(sheet)).toBe(true);
+  expect(
+    facesUp({ ...sheet, triangles: sheet.triangles.map((_, i, all) => all[i - (i % 3) + 2 - (i % 3)]) }),
+  ).toBe(false);
+  const wall = {
+    positions: Float32Array.from([0, 0, 0, 9, 0, 0, 9, 3, 0]),
+    triangles: Uint32Array.from([0, 1, 2]),
+  };
+  expect(facesUp(wall)).toBe(false);
+  const body = { ...sheet, triangles: Uint32Array.from([...sheet.triangles, 0, 1, 2]) };
+  expect(facesUp(body)).toBe(false);
 });

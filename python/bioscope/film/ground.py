@@ -10,10 +10,13 @@ from numpy.typing import NDArray
 from bioscope import _engine
 
 if TYPE_CHECKING:
-    from bioscope._engine import Camera, Scene
+    from bioscope._engine import Camera, Mesh, Scene
 
-_CELL = 0.25
-"""Side of a cell of the map, metres."""
+_CELL, _WIDEST = 0.25, 200.0
+"""Side of a cell of the map, and of the largest map, metres: wider grounds have corners so far
+apart that they do not tell how high it is between them."""
+_DOWN, _UP = 0.2, 0.2
+"""Largest share of the area of a ground that faces down, and least that is seen from above."""
 _MARGIN = 2
 """Cells round the ground that are on the map too."""
 _CLEARANCE = 0.15
@@ -26,10 +29,15 @@ class Ground:
 
     def __init__(self, scene: Scene) -> None:
         still = [one for one in scene.batches if not one.alive and len(one.ids) == 1]
-        built = [one.mesh.positions for one in still if _is_unmoved(one.transforms[0])]
+        meshes = [one.mesh for one in still if _is_unmoved(one.transforms[0])]
+        built = [one.positions for one in meshes if _faces_up(one)]
         corners = np.concatenate([np.zeros((0, 3), np.float32), *built]).astype(float)
-        self._low = corners[:, [0, 2]].min(axis=0, initial=0.0) - _MARGIN * _CELL
-        size = (corners[:, [0, 2]].max(axis=0, initial=0.0) - self._low) / _CELL
+        if len(corners) and np.ptp(corners, axis=0).max() > _WIDEST:
+            corners = corners[:0]
+        low = corners[:, [0, 2]].min(axis=0) if len(corners) else np.zeros(2)
+        high = corners[:, [0, 2]].max(axis=0) if len(corners) else np.zeros(2)
+        self._low = low - _MARGIN * _CELL
+        size = (high - self._low) / _CELL
         cells = np.full(size.astype(int) + 2 * _MARGIN, -np.inf)
         rows, columns = ((corners[:, [0, 2]] - self._low) / _CELL).astype(int).T
         np.maximum.at(cells, (rows, columns), corners[:, 1])
@@ -41,7 +49,8 @@ class Ground:
         """Return the height of what is highest near places (n x 3), metres; -inf off the ground."""
         at = (places[:, [0, 2]] - self._low) / _CELL - 0.5
         corner = np.floor(at).astype(int)
-        inside = ((corner >= 0) & (corner < np.array(self._heights.shape) - 1)).all(axis=1)
+        far = np.array(self._heights.shape) - 2
+        inside = np.equal(corner, np.clip(corner, 0, far)).all(axis=1)
         row, column = np.where(inside[:, None], corner, 0).T
         u, v = (at - corner).T
         heights = [self._heights[row + i, column + j] for i in (0, 1) for j in (0, 1)]
@@ -60,6 +69,15 @@ class Ground:
         if y >= least:
             return camera
         return _engine.Camera((x, least, z), camera.rotation, camera.field_of_view)
+
+
+def _faces_up(mesh: Mesh) -> bool:
+    """Whether a mesh is a sheet seen from above: no wall, no roof, no body."""
+    a, b, c = np.moveaxis(mesh.positions[mesh.triangles.reshape(-1, 3)].astype(float), 1, 0)
+    areas = np.cross(b - a, c - a)
+    whole, up = np.linalg.norm(areas, axis=1).sum(), areas[:, 1]
+    down = np.minimum(up, 0.0).sum()
+    return bool(down >= -_DOWN * whole and up.sum() > _UP * whole)
 
 
 def _is_unmoved(transform: NDArray[np.float32]) -> bool:

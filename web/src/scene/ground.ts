@@ -5,6 +5,9 @@ import type { Batch } from "./batch";
 const POINTS = 192;
 /** Reach from which the ground is one, metres. */
 const LEAST = 3;
+/** Largest share of the area of a ground that faces down, and least that is seen from above. */
+const DOWN = 0.2;
+const UP = 0.2;
 /** By how much triangles overlap, so that no point falls between two. */
 const EDGE = 1e-3;
 
@@ -20,7 +23,9 @@ export class Ground {
 
   /** Measures all that was built where it stands, in metres of the world, and is not alive. */
   measure(batches: Iterable<Batch>): void {
-    const tiles = [...batches].filter(({ layout }) => isBuiltInPlace(layout));
+    const tiles = [...batches].filter(
+      ({ layout, asset }) => isBuiltInPlace(layout) && facesUp(asset.message),
+    );
     this.take(tiles.map((batch) => batch.asset.message));
   }
 
@@ -95,6 +100,29 @@ export function isBuiltInPlace({ alive, count, joints, transforms }: BatchLayout
   if (alive || count !== 1 || joints > 0) return false;
   const [x, y, z, scale, qx, qy, qz] = transforms;
   return scale === 1 && [x, y, z, qx, qy, qz].every((one) => one === 0);
+}
+
+/** Meshes that were looked at, and whether they face up. */
+const looked = new WeakMap<Mesh, boolean>();
+
+/** Whether a mesh is a sheet seen from above: no wall, no roof, no body. */
+export function facesUp(mesh: Mesh): boolean {
+  let answer = looked.get(mesh);
+  if (answer !== undefined) return answer;
+  const { positions: p, triangles } = mesh;
+  let [whole, up, down] = [0, 0, 0];
+  for (let i = 0; i < triangles.length; i += 3) {
+    const [a, b, c] = [3 * triangles[i], 3 * triangles[i + 1], 3 * triangles[i + 2]];
+    const [bx, by, bz] = [p[b] - p[a], p[b + 1] - p[a + 1], p[b + 2] - p[a + 2]];
+    const [cx, cy, cz] = [p[c] - p[a], p[c + 1] - p[a + 1], p[c + 2] - p[a + 2]];
+    const y = bz * cx - bx * cz;
+    whole += Math.hypot(by * cz - bz * cy, y, bx * cy - by * cx);
+    if (y > 0) up += y;
+    else down -= y;
+  }
+  answer = down <= DOWN * whole && up - down > UP * whole;
+  looked.set(mesh, answer);
+  return answer;
 }
 
 /** A height between two; where one is missing, the other. */
