@@ -66,10 +66,16 @@ def test_numbers_typed_are_the_numbers_there(server):
         async with page(server) as one:
             await begin(one)
             hello = next(message for message in one.got if message["type"] == "hello")
-            for kind, species in [("fish", "clownfish"), ("plants", "kelp"), ("pillars", "")]:
+            additions = [("fish", "clownfish"), ("plants", "kelp"), ("pillars", "")]
+            for number, (kind, species) in enumerate(additions, start=3):
                 addition = {"change": "add", "kind": kind, "count": 2, "position": [0, -3, 0]}
                 await one.say("add", addition=addition | {"species": species})
-                there = await one.until(lambda message: message["type"] == "populations")
+                # The message of the world's beginning may come late.
+                there = await one.until(
+                    lambda message, number=number: (
+                        message["type"] == "populations" and len(message["populations"]) == number
+                    )
+                )
             await one.say("resize", population="fish", count=5)
             await one.say("resize", population="plankton", count=44)
             numbers = await one.until(
